@@ -170,8 +170,61 @@ have() {
     return 1
 }
 
+# drawn_from SCRIPT [WHAT]: the columns of its table that a script draws, where `columns=` of a REPORT card may leave them out.
+drawn_from() {
+    case $1 in
+        kinematics.gp)
+            case $2 in
+                angles) echo theta3 theta4 transmission_angle ;;
+                velocities) echo omega3 omega4 ;;
+                *) echo alpha3 alpha4 ;;
+            esac ;;
+        link_motion.gp) echo theta omega alpha ;;
+        pin_motion.gp) echo x y vx vy ax ay ;;
+        point_rates.gp) echo vx vy ax ay ;;
+        coupler_curve.gp) echo x y ;;
+        reactions.gp) echo O2x O2y A2x A2y A3x A3y B3x B3y B4x B4y O4x O4y torque ;;
+        forces.gp | animate_forces.gp) echo O2x O2y A3x A3y B3x B3y O4x O4y shaking_x shaking_y ;;
+        shaking_force.gp) echo shaking_x shaking_y ;;
+        joint_forces.gp) echo fx fy ;;
+        bearings.gp) echo fx fy axial transverse magnitude ;;
+        lagrange.gp) echo torque kinetic potential ;;
+        displacements.gp | pin_displacements.gp | deviation.gp) echo ux uy ;;
+        deformed_linkage.gp | animate_response.gp) echo ux uy rotation ;;
+        strains.gp | gauge_by_speed.gp) echo axial_strain bending_strain stress ;;
+        drive.gp) echo rigid linear quadratic total power ;;
+        largest_strain.gp) echo strain ;;
+    esac
+}
+
+# complete FIGURE SCRIPT TABLE [WHAT]: the table has what the script draws; what it lacks is told once.
+complete() {
+    needed=$(drawn_from "$2" "${4-}")
+    [ -n "$needed" ] && [ -n "$3" ] || return 0
+    its_columns=" $(ask facts "$3" | tr ';' '\n' | sed -n 's/^ col_\([^ ]*\) = .*/\1/p' | tr '\n' ' ')"
+    lacking=
+    for column in $needed; do
+        case $its_columns in *" $column "*) ;; *) lacking="$lacking $column" ;; esac
+    done
+    [ -n "$lacking" ] || return 0
+    lacking="$1 is not drawn: $outdir/${3##*/} has no column$lacking (columns= of its REPORT card)"
+    grep -qxF -e "$lacking" "$new/lacking" 2> /dev/null || remark "$lacking"
+    printf '%s\n' "$lacking" >> "$new/lacking"
+    return 1
+}
+
 # add FIGURE SCRIPT TABLE [ARGUMENT…]
-add() { (IFS='|'; printf '%s\n' "$*") >> "$new/plan"; }
+add() {
+    complete "$1" "$2" "$3" "${4-}" || return 0
+    (IFS='|'; printf '%s\n' "$*") >> "$new/plan"
+}
+
+# have_modes: frequencies.dat has a frequency.
+have_modes() {
+    ask facts frequencies.dat | grep -q '; col_f[1-9][0-9]* = ' && return 0
+    remark "frequencies are not drawn: $outdir/frequencies.dat has no column f1, f2, … (columns= of its REPORT card)"
+    return 1
+}
 
 # put_over_time TABLE: a table of a drive with a law has the time before speed and position. Its curves are drawn from a copy with
 # the time in the place of the position, and one speed.
@@ -242,6 +295,7 @@ named() {
 plan_speeds() {
     speeds=$(ask 'distinct speed' "$2")
     n=$(printf '%s\n' "$speeds" | wc -l)
+    complete "$1" "${4-$1.gp}" "$2" || return 0
     speed_names=$(printf '%s\n' "$speeds" | named)
     [ -z "${3-}" ] || speeds=$(ask "moving $3" "$2")
     for speed in $speeds; do
@@ -252,8 +306,9 @@ plan_speeds() {
 }
 
 plan_frequencies() {
+    [ $errors = yes ] && ask facts frequencies.dat | grep -q 'col_error[1-9]' && plan_speeds errors frequencies.dat
+    have_modes || return 0
     plan_speeds frequencies frequencies.dat
-    [ $errors = yes ] && ask facts frequencies.dat | grep -q col_error1 && plan_speeds errors frequencies.dat
     [ "$n" -gt 1 ] || return 0
     for mode in $(ask facts frequencies.dat | tr ' ' '\n' | sed -n 's/^col_f\([0-9][0-9]*\)$/\1/p'); do
         add "frequency_${mode}_by_speed" frequency_by_speed.gp frequencies.dat "$mode"
@@ -479,7 +534,7 @@ plan_animations() {
     have motion.dat && add motion animate_motion.gp motion.dat "$points"
 }
 
-# A deck with VARY: its rows belong to many mechanisms, and only its frequencies are drawn, against what was varied.
+# A deck with VARY: its rows belong to many mechanisms, and only frequencies and summaries are drawn, against what was varied.
 varied=
 for table in *.dat; do
     [ -z "$varied" ] && [ -f "$table" ] && varied=$(ask varied "$table")
@@ -518,11 +573,16 @@ if no_four_bar; then
 fi
 if [ -n "$varied" ]; then
     [ $figures = figures ] || fail "$outdir has nothing to animate: its tables are those of a deck with VARY"
-    [ -f frequencies.dat ] ||
-        fail "$outdir has nothing to draw: of a deck with VARY only frequencies.dat is drawn (REPORT frequencies)"
-    if have frequencies.dat; then
+    [ -f frequencies.dat ] || [ -f summary.dat ] ||
+        fail "$outdir has nothing to draw: of a deck with VARY only frequencies.dat and summary.dat are drawn (REPORT frequencies, summary)"
+    if [ -f frequencies.dat ] && have frequencies.dat && have_modes; then
         for parameter in $varied; do
             add "frequencies_by_$parameter" varied.gp frequencies.dat "$parameter"
+        done
+    fi
+    if [ -f summary.dat ] && have summary.dat rows; then
+        for parameter in $varied; do
+            add "summary_by_$parameter" summary.gp summary.dat "$parameter"
         done
     fi
 elif [ $figures = animations ]; then

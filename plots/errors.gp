@@ -6,9 +6,11 @@ load ARG0[1 : strlen(ARG0) - strlen("errors.gp")]."style.gp"
 table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
 
 eval answer(table, "facts")
-modes = 0
+numbers = ""                                        # of the modes that the table has
 names = ""
-do for [name in columns] { if (name eq sprintf("error%d", modes + 1)) { modes = modes + 1; names = names." ".name } }
+do for [name in columns] { if (is_numbered(name, "error")) { numbers = numbers." ".name[6:*]; names = names." ".name } }
+modes = words(numbers)
+mode(k) = int(word(numbers, k))
 range = answer(table, "range".names)
 zeros = word(range, 1) + 0.0 <= 0
 positive = answer(table, "positive".names)          # empty: all are zero
@@ -26,7 +28,7 @@ headline = numbered(figure, sprintf("Estimated errors of the natural frequencies
 note = zeros ? "on the lower edge: no error" : ""
 
 lower = foot(lines_of_notes(note, remark))
-eval legend_page(1000, modes, text_width(sprintf("mode %d", modes), 20), 80, 1)
+eval legend_page(1000, modes, text_width(sprintf("mode %d", mode(modes)), 20), 80, 1)
 eval heading
 eval crank_axis(low_crank, high_crank)
 set logscale y
@@ -38,10 +40,10 @@ set tmargin at screen down(125)
 set bmargin at screen up(lower)
 eval axis_title("estimated relative error", lower, @panel_room - lower)
 
-plot for [k=1:modes] table using (field("crank")):(pick("error".k)) with lines lt k lw line_width(positions) notitle, \
-    for [k=1:modes] table using (field("crank")):(pick("error".k)) with points lt k pt 7 ps dot_size(positions) notitle, \
+plot for [k=1:modes] table using (field("crank")):(pick("error".mode(k))) with lines lt mode(k) lw line_width(positions) notitle, \
+    for [k=1:modes] table using (field("crank")):(pick("error".mode(k))) with points lt mode(k) pt 7 ps dot_size(positions) notitle, \
     for [k=1:modes] table every mark_step(positions)::mark_first(k, modes, positions) \
-        using (field("crank")):(pick("error".k)) with points lt k notitle, \
-    for [k=1:listed(modes)] keyentry with linespoints lt k title sprintf("mode %d", k), \
+        using (field("crank")):(pick("error".mode(k))) with points lt mode(k) notitle, \
+    for [k=1:listed(modes)] keyentry with linespoints lt mode(k) title sprintf("mode %d", mode(k)), \
     keyentry title unlisted(modes)
 eval close

@@ -28,6 +28,7 @@ do for [panel=1:panels] {
     if (low != 0 || high != 0) {
         if (also_shown(panel) > high) { high = also_shown(panel) }
         if (also_shown(panel) < low) { low = also_shown(panel) }
+        if (also_reached(panel) > high) { high = also_reached(panel) }
     }
     low_of[panel] = low
     high_of[panel] = high

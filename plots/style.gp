@@ -120,6 +120,8 @@ symbol_of(letter) = letter eq "." || letter eq "*" ? "·" : letter eq "2" ? "²"
 rows_if(table, condition) = "< awk ".quoted("NF == 0 || /^# *failed / { print \"\" } !/^#/ && ".condition)." ".quoted(table)
 is_named(column, name) = sprintf("$%d \"\" == \"%s\"", value("col_".column), name)
 is_at(column, number) = sprintf("($%d - %s)^2 <= 1e-18*(1 + $%d^2)", value("col_".column), number, value("col_".column))
+is_numbered(name, word) = strlen(name) > strlen(word) && name[1 : strlen(word)] eq word \
+    && strstrt("123456789", name[strlen(word) + 1 : strlen(word) + 1]) > 0              # f1, f12
 repeated(k, text) = k < 1 ? "" : repeated(k - 1, text)." ".text
 words_in(table, want) = system(ask(table, want)." | sed 's/.*/\"&\"/'")     # every line of an answer a word, whatever is in it
 names_in(table, name) = words_in(table, "names ".name)
@@ -286,6 +288,7 @@ escaped(text) = text eq "" ? "" : (text[1:1] eq "\n" ? "\\n" : text[1:1] eq "\\"
 # drawn, and parts of its plot command below and above the curves, a comma behind each, with their entries of the legend, a comma before each.
 is_logarithmic(panel) = 0
 also_shown(panel) = NaN
+also_reached(panel) = NaN                           # likewise, of a greatest value where the other is a least one
 before_panel(panel) = ""
 parts_below(panel) = ""
 parts_above(panel) = ""

@@ -52,9 +52,13 @@
 #   want="poses"                   the positions of geometry.dat, a line each: the crank angle, then for every
 #                                  pin of a link the link's number (0 the ground), its name, x and y, for every point the
 #                                  same with the number below 0; for springs and dampers the same with their part, | and name for it
+#   want="rows_by L"               the rows where the other parameters are those of the first row, as they are, with an empty line
+#                                  where such a variant has failed
+#   want="rows_by L"               the rows where the other parameters are those of the first row, as they are, with an empty line
+#                                  where such a variant has failed
 #   want="unit L"                  the unit of this column
 #   want="band L"                  where the other parameters and the speed are those of the first row: L, then the least and the
-#                                  greatest value over all positions of f1, of f2, …
+#                                  greatest value over all positions of every frequency of the table
 #   want="events 20"               what happens to them: 1 crossing, 2 veering, 3 ambiguous; crank; the lower and the higher
 #                                  frequency (a crossing lies between two rows; one that comes with the speed is left out)
 # With datablock=name the answer is a gnuplot datablock of that name.
@@ -80,6 +84,18 @@ header && /^#/ && (NR == 1 || !/^# *failed /) {
 header {
     header = 0
     name_columns()
+}
+
+# A variant without a row: the other parameters are compared with those of the first row, or kept for it.
+asked[1] == "rows_by" && /^# *failed / {
+    if (!rows) next
+    kept = 1
+    for (i = 3; i <= NF && $i != ":"; i++) {
+        split($i, pair, "=")
+        if (pair[1] != asked[2] && pair[1] in at && !same(pair[2], first_row[at[pair[1]]])) kept = 0
+    }
+    if (kept) print ""
+    next
 }
 
 /^#/ || NF == 0 {
@@ -170,6 +186,15 @@ asked[1] == "poses" {
     if ($at["part"] ~ /^(spring|damper|side)$/) place_number = $at["part"] "|" $at["link"]
     else place_number = $at["part"] == "point" ? -links : links
     pose = pose " " place_number " " $at["place"] " " $at["x"] " " $at["y"]
+}
+
+asked[1] == "rows_by" {
+    kept = 1
+    for (i = 1; i < at["rows"]; i++) {
+        if (rows == 1) first_row[i] = $i
+        if (name[i] != asked[2] && $i != first_row[i]) kept = 0
+    }
+    if (kept) print
 }
 
 asked[1] == "band" {
@@ -309,7 +334,12 @@ END {
     if (asked[1] == "change") print_change()
     if (asked[1] == "critical") print_critical()
     if (asked[1] == "displacements" || asked[1] == "positions") print_displacements()
-    if (asked[1] == "varied") for (i = 1; i <= n_columns && name[i] !~ /^(speed|crank|time|branch|from|part)$/; i++) print name[i]
+    if (asked[1] == "varied") {
+        for (i = 1; i <= n_columns && name[i] !~ /^(speed|crank|time|branch|from|part)$/; i++) {
+            if (name[i] == "rows" && name[i + 1] == "failed") break
+            print name[i]
+        }
+    }
     if (asked[1] == "poses" && pose) print pose
     if (asked[1] == "band") print_bands()
     if (asked[1] == "nodes" || asked[1] == "masses") print_nodes()
@@ -319,7 +349,10 @@ END {
 function name_columns(    i) {
     n_columns = split(name_line, name, " ")
     split(unit_line, unit, " ")
-    for (i = 1; i <= n_columns; i++) at[name[i]] = i
+    for (i = 1; i <= n_columns; i++) {
+        at[name[i]] = i
+        if (name[i] ~ /^f[1-9][0-9]*$/) mode_column[++n_modes] = i
+    }
 }
 
 function print_facts(    i) {
@@ -388,16 +421,16 @@ function print_limits(    kind, i, k, line) {
 
 function band(value,    k) {
     if (!(value in least_of)) { place[++places] = value; least_of[value] = 1 }
-    for (k = 1; ("f" k) in at; k++) {
-        if (!((value, k) in low) || $at["f" k] + 0 < low[value, k]) low[value, k] = $at["f" k] + 0
-        if (!((value, k) in high) || $at["f" k] + 0 > high[value, k]) high[value, k] = $at["f" k] + 0
+    for (k = 1; k <= n_modes; k++) {
+        if (!((value, k) in low) || $mode_column[k] + 0 < low[value, k]) low[value, k] = $mode_column[k] + 0
+        if (!((value, k) in high) || $mode_column[k] + 0 > high[value, k]) high[value, k] = $mode_column[k] + 0
     }
 }
 
 function print_bands(    i, k, line) {
     for (i = 1; i <= places; i++) {
         line = place[i] + 0
-        for (k = 1; ("f" k) in at; k++) line = line " " low[place[i], k] " " high[place[i], k]
+        for (k = 1; k <= n_modes; k++) line = line " " low[place[i], k] " " high[place[i], k]
         print line
     }
 }

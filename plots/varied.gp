@@ -6,9 +6,11 @@ load ARG0[1 : strlen(ARG0) - strlen("varied.gp")]."style.gp"
 table = ARG1; out = ARG2; parameter = ARG3; figure = argument(4); remark = argument(5)
 
 eval answer(table, "facts")
-modes = 0
+numbers = ""                                        # of the modes that the table has
 names = ""
-do for [name in columns] { if (name eq sprintf("f%d", modes + 1)) { modes = modes + 1; names = names." ".name } }
+do for [name in columns] { if (is_numbered(name, "f")) { numbers = numbers." ".name[2:*]; names = names." ".name } }
+modes = words(numbers)
+mode(k) = int(word(numbers, k))
 range = answer(table, "range".names)
 lowest = word(range, 1) + 0.0
 highest = word(range, 2) + 0.0
@@ -28,7 +30,7 @@ headline = numbered(figure, "Natural frequencies against ".(meaning eq "" ? insi
 note = "bands: least to greatest over the computed crank angles;  ".fixed
 if (lowest < 0 && remark eq "") { remark = divergence }
 
-eval page_of_one(modes, text_width(sprintf("mode %d", modes), 20), "natural frequency", unit_f1, lowest, highest)
+eval page_of_one(modes, text_width(sprintf("mode %d", mode(modes)), 20), "natural frequency", value("unit_f".mode(1)), lowest, highest)
 set style fill transparent solid 0.25 noborder
 extent = answer(table, "range ".parameter)
 low = word(extent, 1) + 0.0
@@ -39,11 +41,11 @@ if (high == low) { eval abscissa(low - (low == 0 ? 1 : 0.01*abs(low)), low + (lo
 x_title = abscissa_title(meaning eq "" ? parameter : meaning.", ".parameter, answer(table, "unit ".parameter), low, high)
 set xlabel fitted(x_title, plot_width + 100, 16) noenhanced font point_size(fit_size(x_title, plot_width + 100, 20, 16))
 
-plot for [k=1:modes] $bands using 1:(column(2*k)):(column(2*k + 1)) with filledcurves lt k notitle, \
-    for [k=1:modes] $bands using 1:(column(2*k)) with lines lt k lw line_width(values) notitle, \
-    for [k=1:modes] $bands using 1:(column(2*k + 1)) with lines lt k lw line_width(values) notitle, \
-    for [k=1:modes] $bands using 1:(column(2*k)) with points lt k pt 7 ps dot_size(values) notitle, \
-    for [k=1:modes] $bands using 1:(column(2*k + 1)) with points lt k pt 7 ps dot_size(values) notitle, \
-    for [k=1:listed(modes)] keyentry with lines lt k title sprintf("mode %d", k), \
+plot for [k=1:modes] $bands using 1:(column(2*k)):(column(2*k + 1)) with filledcurves lt mode(k) notitle, \
+    for [k=1:modes] $bands using 1:(column(2*k)) with lines lt mode(k) lw line_width(values) notitle, \
+    for [k=1:modes] $bands using 1:(column(2*k + 1)) with lines lt mode(k) lw line_width(values) notitle, \
+    for [k=1:modes] $bands using 1:(column(2*k)) with points lt mode(k) pt 7 ps dot_size(values) notitle, \
+    for [k=1:modes] $bands using 1:(column(2*k + 1)) with points lt mode(k) pt 7 ps dot_size(values) notitle, \
+    for [k=1:listed(modes)] keyentry with lines lt mode(k) title sprintf("mode %d", mode(k)), \
     keyentry title unlisted(modes)
 eval close

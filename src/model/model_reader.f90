@@ -44,6 +44,7 @@ module model_reader
   use sections, only: read_section
   use shear, only: check_shear
   use spelling, only: suggestion
+  use summary_needs, only: take_needs
   use spring_checks, only: check_springs, read_springs
   use table_cards, only: check_tables
   use text, only: joined, same_word, string_t, upper_case
@@ -156,6 +157,8 @@ contains
             if (.not. report%with_pins) report%kind%tables(2) = table_kind_t()
             if (.not. report%with_forces) report%kind%tables(3) = table_kind_t()
           end if
+          if (report%kind%name == "summary") call take_needs(reports, model, four_bar, is_sound, &
+            diagnostics, report)
           ! Harmonics are of a whole turn at constant speed.
           if (report%kind%name == "balance" .and. has_law(model)) then
             report%kind%tables(2) = table_kind_t()

@@ -22,6 +22,7 @@ module models
   use response_cards, only: damping_card_t, gauge_t, omitted_terms_t
   use sections, only: section_t
   use spring_cards, only: spring_t
+  use summary_cards, only: takes_from
   use text, only: same_word, to_string
   use tokens, only: token_t
   use units, only: from_si, unit_system_t, unit_t
@@ -29,12 +30,12 @@ module models
   implicit none (type, external)
   private
 
-  public :: model_t, report_number, needs_study, needs_positions, is_moving, is_loaded, is_sprung, &
-    is_damped, needs_loads, needs_inertia, needs_frequencies, needs_response, report_in_motion, &
-    steady_state_report, accuracy_of_study, needs_beams, &
+  public :: model_t, report_number, report_with, needs_study, needs_positions, is_moving, &
+    is_loaded, is_sprung, is_damped, needs_loads, needs_inertia, needs_frequencies, &
+    needs_response, report_in_motion, steady_state_report, accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
-    link_line_density, speed_in_table, speed_in_words, is_four_bar, is_pin, pivots, drives_length, &
-    balances, has_law
+    link_line_density, speed_in_table, speed_in_words, is_four_bar, is_pin, pivots, &
+    drives_length, balances, has_law
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -131,6 +132,21 @@ contains
       if (model%reports(i)%kind%name == name) number = i
     end do
   end function report_number
+
+  !> Number of the first report that has values of a report: this one, or a summary of its
+  !! quantities; 0 if there is none.
+  pure function report_with(model, name) result(number)
+    type(model_t), intent(in) :: model   !! as read
+    character(len=*), intent(in) :: name !! of a report, as in the table of reports
+    integer :: number
+
+    do number = 1, size(model%reports)
+      associate (report => model%reports(number))
+        if (report%kind%name == name .or. takes_from(report%summary, name)) return
+      end associate
+    end do
+    number = 0
+  end function report_with
 
   !> Whether the linkage has the parts of a four-bar and no others: three links between two pins
   !! each, two ground pivots, one driven link. GROUND pins that only hold springs do not count.

@@ -9,15 +9,17 @@ module table_rows
   implicit none (type, external)
   private
 
-  public :: rows_t, row_item_t, add_row, add_gap, add_failed_row, append_rows, next_item, &
-    put_rows, get_rows
+  public :: rows_t, row_item_t, keep_cells, add_row, add_gap, add_failed_row, append_rows, &
+    next_item, put_rows, get_rows
   public :: item_row, item_gap, item_failure
 
   !> Kinds of items.
   integer, parameter :: item_row = 1, item_gap = 2, item_failure = 3
 
   type :: rows_t
-    type(text_buffer_t), private :: buffer !! all items as bytes
+    type(text_buffer_t), private :: buffer             !! all items as bytes
+    integer, allocatable, private :: first(:), last(:) !! (cells) characters of a row that are kept;
+                                                       !! not allocated: all
   end type rows_t
 
   !> One item.
@@ -30,13 +32,39 @@ module table_rows
 
 contains
 
+  !> Of the rows that are added from now on some cells only are kept.
+  pure subroutine keep_cells(rows, first, last)
+    type(rows_t), intent(inout) :: rows             !! so far
+    integer, allocatable, intent(in) :: first(:)    !! (cells) characters in a row, in the order in
+                                                    !! which they are to stand; not allocated: all
+    integer, allocatable, intent(in) :: last(:)     !! likewise
+
+    if (.not. allocated(first)) return
+    rows%first = first
+    rows%last = last
+  end subroutine keep_cells
+
   !> Appends a row of cells as text, each as wide as its column.
   pure subroutine add_row(rows, cells)
     type(rows_t), intent(inout) :: rows   !! so far
     character(len=*), intent(in) :: cells !! of all columns
 
+    character(len=len(cells)) :: kept
+    integer :: i, length
+
     call put_integers(rows%buffer, [item_row])
-    call put_string(rows%buffer, cells)
+    if (.not. allocated(rows%first)) then
+      call put_string(rows%buffer, cells)
+      return
+    end if
+    length = 0
+    do i = 1, size(rows%first)
+      associate (cell => cells(rows%first(i):rows%last(i)))
+        kept(length + 1:length + len(cell)) = cell
+        length = length + len(cell)
+      end associate
+    end do
+    call put_string(rows%buffer, kept(:length))
   end subroutine add_row
 
   !> Appends empty lines: one where a curve breaks, two between blocks.

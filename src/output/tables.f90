@@ -29,6 +29,7 @@ module tables
     character(len=:), allocatable :: name     !! of its files, without `.dat` and `.csv`
     logical :: has_plain = .true.             !! at least one of the two
     logical :: has_csv = .false.
+    logical :: has_blocks = .true.            !! empty lines separate the variants
     type(column_t), allocatable :: columns(:) !! all; not allocated before the header is written
     integer(long) :: rows = 0_long            !! written so far, without failed ones
     integer(long) :: failed_rows = 0_long     !! could not be computed
@@ -172,15 +173,15 @@ contains
     call move_alloc(wider, columns)
   end subroutine append_column
 
-  !> Separates a variant from the one before: two empty lines, and those of its notes that the
-  !! header does not have.
+  !> Separates a variant from the one before: two empty lines, unless its rows are no block, and
+  !! those of its notes that the header does not have.
   subroutine write_notes(table, notes)
     type(table_t), intent(inout) :: table  !! with its header
     type(string_t), intent(in) :: notes(:) !! lines of text, of the variant
 
     integer :: i
 
-    call write_gap(table, 2)
+    if (table%has_blocks) call write_gap(table, 2)
     do i = 1, size(notes)
       if (is_among(table%notes, notes(i)%text)) cycle
       call append_plain(table, "# "//notes(i)%text//line_feed)
@@ -320,8 +321,9 @@ contains
     table%gap_due = .true.
     table%failed_rows = table%failed_rows + 1
     if (.not. table%has_csv) return
+    ! Without a known value there is one comma less: none stands before the first field.
     call append_output(table%csv, csv_record(real_cells(known))//repeat(",", &
-      size(table%columns) - size(known) + 1)//csv_quoted(reason)//csv_line_end)
+      size(table%columns) - max(1, size(known)) + 1)//csv_quoted(reason)//csv_line_end)
   end subroutine write_failure
 
   !> Cells of numbers with 17 digits. Zero has no sign: -0 would make equal tables differ.

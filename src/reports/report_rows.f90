@@ -1,7 +1,8 @@
 !> Rows of a table, found on several threads and put in order.
 module report_rows
   use report_table, only: add_item_rows, table_plan_t
-  use table_rows, only: append_rows, rows_t
+  use table_columns, only: find_chosen_cells
+  use table_rows, only: append_rows, keep_cells, rows_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -19,8 +20,11 @@ contains
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     type(rows_t), allocatable :: pieces(:)
+    integer, allocatable :: first_cells(:), last_cells(:)
     integer :: items, piece, count, i
 
+    call find_chosen_cells(plan%layout, first_cells, last_cells)
+    call keep_cells(rows, first_cells, last_cells)
     if (threads == 1) then
       do i = first, last
         call add_item_rows(plan, variant, i, rows)
@@ -30,6 +34,9 @@ contains
     items = last - first + 1
     count = max(1, min(4*threads, items))
     allocate (pieces(count))
+    do piece = 1, count
+      call keep_cells(pieces(piece), first_cells, last_cells)
+    end do
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(piece, i)
     do piece = 1, count
       do i = first + ((piece - 1)*items)/count, first + (piece*items)/count - 1

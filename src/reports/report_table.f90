@@ -62,7 +62,8 @@ module report_table
   use position_loads, only: elastic_division_t, fail_everywhere, find_division, take_failures
   use reactions_report, only: add_reactions, reactions_notes
   use reactions_study, only: find_reactions
-  use report_kinds, only: four_bars, other_linkages, report_kind_t, table_kind_t
+  use report_kinds, only: column_kind_t, columns_of, four_bars, key_count, other_linkages, &
+    report_kind_t, table_kind_t
   use response_notes, only: add_failed_speed, has_response
   use response_report, only: add_response, response_notes_of, response_point_names
   use sizing_report, only: add_sizing, sizing_names, sizing_notes
@@ -70,9 +71,12 @@ module report_table
   use sizing_study, only: find_sizing
   use stability_report, only: add_stability, stability_notes, stability_words
   use strains_report, only: add_strains, gauge_names, strains_notes
-  use table_columns, only: name_list_t, new_table_layout, table_factor, table_layout_t
+  use summary_report, only: add_summary, add_summary_columns, summary_notes
+  use table_columns, only: choose_columns, name_list_t, new_table_layout, table_factor, &
+    table_layout_t
   use table_rows, only: add_failed_row, add_gap, rows_t
   use text, only: string_t
+  use tokens, only: token_texts
   use transient_report, only: add_transient, gauge_history_notes, transient_notes
   use units, only: from_si
   use validity_report, only: add_validity, validity_notes
@@ -123,15 +127,18 @@ module report_table
   !! tables with their columns.
   type(report_kind_t), parameter :: reports(*) = [ &
     report_kind_t(name="kinematics", help="how the links move", &
+      pattern="REPORT kinematics [columns=]", &
       studies="kinematics", positions=.true., reserved=.true., linkages=four_bars, numbers=11, &
       tables=[ &
       table_kind_t("kinematics", "speed:speed crank,theta3,theta4:deg omega3,omega4:rate "// &
       "alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length transmission_angle:deg"), no_table, no_table]), &
     report_kind_t(name="kinematics", help="of other linkages: how the links move", &
+      pattern="REPORT kinematics [columns=]", &
       studies="kinematics", positions=.true., reserved=.true., linkages=other_linkages, tables=[ &
       table_kind_t("kinematics", "speed:speed crank:deg link:name theta:deg omega:rate "// &
       "alpha:rad/s2"), no_table, no_table]), &
     report_kind_t(name="pins", help="paths, velocities and accelerations of the pins", &
+      pattern="REPORT pins [columns=]", &
       studies="kinematics", positions=.true., tables=[ &
       table_kind_t("pins", "speed:speed crank:deg pin:name x,y:length vx,vy:velocity "// &
       "ax,ay:acceleration"), no_table, no_table]), &
@@ -150,6 +157,7 @@ module report_table
       table_kind_t("mesh", "crank:deg link:name element,node_a,node_b:# xa,ya,xb,yb:length "// &
       "mass_a,mass_b:mass"), no_table, no_table]), &
     report_kind_t(name="frequencies", help="natural frequencies with estimated errors", &
+      pattern="REPORT frequencies [columns=]", &
       studies="frequencies", positions=.true., beams=.true., frequencies=.true., &
       reserved=.true., tables=[ &
       table_kind_t("frequencies", "speed:speed crank:deg f*:Hz error*:-"), no_table, no_table]), &
@@ -165,21 +173,24 @@ module report_table
       table_kind_t("branches", "speed:speed crank:deg branch,mode:# frequency:Hz mac:- "// &
       "event:name"), no_table, no_table]), &
     report_kind_t(name="reactions", help="forces in the pins, torque, shaking force and moment", &
+      pattern="REPORT reactions [columns=]", &
       studies="reactions", positions=.true., masses=.true., linkages=four_bars, numbers=48, &
       tables=[ &
       table_kind_t("reactions", "speed:speed crank:deg "// &
       "O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force torque:moment "// &
       "shaking_x,shaking_y:force shaking_moment:moment"), no_table, no_table]), &
     report_kind_t(name="reactions", help="of other linkages: forces and moments in all joints", &
+      pattern="REPORT reactions [columns=]", &
       studies="joints", positions=.true., masses=.true., linkages=other_linkages, tables=[ &
       table_kind_t("reactions", "speed:speed crank:deg pin,link:name fx,fy:force "// &
       "moment:moment"), no_table, no_table]), &
     report_kind_t(name="bearings", help="forces in the joints, in the axes of the links too", &
+      pattern="REPORT bearings [columns=]", &
       studies="joints", positions=.true., masses=.true., numbers=82, tables=[ &
       table_kind_t("bearings", "speed:speed crank:deg pin,link:name "// &
       "fx,fy,axial,transverse,magnitude:force angle:deg"), no_table, no_table]), &
     report_kind_t(name="frame", help="shaking force, and force and moment on the frame", &
-      pattern="REPORT frame [about=x,y|pin]", studies="joints", positions=.true., &
+      pattern="REPORT frame [about=x,y|pin] [columns=]", studies="joints", positions=.true., &
       masses=.true., numbers=82, tables=[ &
       table_kind_t("frame", "speed:speed crank:deg shaking_x,shaking_y:force "// &
       "shaking_moment:moment frame_x,frame_y:force frame_moment:moment"), no_table, no_table]), &
@@ -193,10 +204,12 @@ module report_table
       table_kind_t("sizing", "speed:speed part,pin,quantity:name value:see_unit unit:name "// &
       "crank:deg error:-"), no_table, no_table]), &
     report_kind_t(name="points", help="paths, velocities and accelerations of points", &
+      pattern="REPORT points [columns=]", &
       studies="points", positions=.true., tables=[ &
       table_kind_t("points", "speed:speed crank:deg point:name x,y:length vx,vy:velocity "// &
       "ax,ay:acceleration"), no_table, no_table]), &
     report_kind_t(name="lagrange", help="the torque from energies", &
+      pattern="REPORT lagrange [columns=]", &
       studies="lagrange", positions=.true., masses=.true., numbers=5, tables=[ &
       table_kind_t("lagrange", "speed:speed crank:deg M,dM:inertia "// &
       "V,gravity,load,torque:moment kinetic,potential:energy"), no_table, no_table]), &
@@ -233,18 +246,18 @@ module report_table
       pattern="REPORT geometry crank=a,b,...", offered=.false., studies="geometry", tables=[ &
       table_kind_t("geometry", "crank:deg link,part,place:name x,y:length"), no_table, no_table]), &
     report_kind_t(name="response", help="how far pins and points are from where rigid links are", &
-      pattern="REPORT response [accuracy=]", default="accuracy=1e-6", studies="response", &
-      positions=.true., response=.true., tables=[ &
+      pattern="REPORT response [accuracy=] [columns=]", default="accuracy=1e-6", &
+      studies="response", positions=.true., response=.true., tables=[ &
       table_kind_t("response", "speed:speed crank:deg point:name ux,uy:length rotation:deg "// &
       "error:-"), no_table, no_table]), &
     report_kind_t(name="strains", help="strains, forces and stresses at gauges", &
-      pattern="REPORT strains [accuracy=]", default="accuracy=1e-6", studies="response", &
-      positions=.true., response=.true., tables=[ &
+      pattern="REPORT strains [accuracy=] [columns=]", default="accuracy=1e-6", &
+      studies="response", positions=.true., response=.true., tables=[ &
       table_kind_t("strains", "speed:speed crank:deg gauge:name axial_strain,bending_strain:- "// &
       "moment:moment axial_force,shear_force:force stress:stress error:-"), no_table, no_table]), &
     report_kind_t(name="peaks", help="largest strain, stress and deflection of every link", &
-      pattern="REPORT peaks [accuracy=]", default="accuracy=1e-6", studies="response", &
-      response=.true., tables=[ &
+      pattern="REPORT peaks [accuracy=] [columns=]", default="accuracy=1e-6", &
+      studies="response", response=.true., tables=[ &
       table_kind_t("peaks", "speed:speed link:name strain:- strain_at:length "// &
       "strain_crank:deg stress:stress stress_at:length stress_crank:deg "// &
       "deflection,deflection_at:length deflection_crank:deg power:power error:-"), no_table, &
@@ -261,8 +274,8 @@ module report_table
       table_kind_t("shaking", "speed:speed crank:deg shaking_x,shaking_y:force "// &
       "shaking_moment:moment"), no_table]), &
     report_kind_t(name="torque", help="the torque of the elastic linkage, with its parts", &
-      pattern="REPORT torque [accuracy=]", default="accuracy=1e-6", studies="response", &
-      positions=.true., response=.true., tables=[ &
+      pattern="REPORT torque [accuracy=] [columns=]", default="accuracy=1e-6", &
+      studies="response", positions=.true., response=.true., tables=[ &
       table_kind_t("torque", "speed:speed crank:deg rigid,linear,quadratic,total:moment "// &
       "power:power error:-"), no_table, no_table]), &
     report_kind_t(name="validity", help="whether the equations of the response hold", &
@@ -309,7 +322,10 @@ module report_table
       linkages=other_linkages, tables=[ &
       table_kind_t("motion", "time:time position*:deg rate*:rate torque:moment "// &
       "kinetic,potential,work,energy_error:energy acceleration*:rad/s2 "// &
-      "motor_power,gear_loss,load_power:power"), motion_pins, motion_forces])]
+      "motor_power,gear_loss,load_power:power"), motion_pins, motion_forces]), &
+    report_kind_t(name="summary", help="a row a variant: least, mean and greatest values", &
+      pattern="REPORT summary of=f1,torque,... [accuracy=]", positions=.true., tables=[ &
+      table_kind_t("summary", "rows,failed:#", .false.), no_table, no_table])]
 
 contains
 
@@ -531,9 +547,30 @@ contains
     case ("intervals")
       names(:2) = interval_words()
       plan%items = 1
+    case ("summary")
+      plan%items = 1
     end select
     call new_table_layout(table, variant%model%outputs, count, optional, names, plan%layout)
+    if (plan%name == "summary") call add_summary_columns(variant%model, plan%layout)
+    call choose_if_asked(table, variant%model, plan%layout)
   end subroutine plan_table
+
+  !> Leaves a table the columns that its report asks for.
+  subroutine choose_if_asked(table, model, layout)
+    type(table_kind_t), intent(in) :: table
+    type(model_t), intent(in) :: model
+    type(table_layout_t), intent(inout) :: layout
+
+    type(column_kind_t), allocatable :: columns(:)
+    integer :: number
+
+    ! The first table of a report has its name.
+    number = report_number(model, trim(table%name))
+    if (number == 0) return
+    if (.not. allocated(model%reports(number)%columns)) return
+    call columns_of(table, columns)
+    call choose_columns(layout, key_count(columns), token_texts(model%reports(number)%columns))
+  end subroutine choose_if_asked
 
   !> The names in a column `link`.
   pure function link_names(variant) result(list)
@@ -646,6 +683,8 @@ contains
       call campbell_notes(variant, notes)
     case ("critical")
       call critical_notes(variant, notes)
+    case ("summary")
+      call summary_notes(variant, notes)
     end select
   end subroutine table_notes
 
@@ -700,6 +739,8 @@ contains
       call add_campbell(variant, plan%layout, number, rows)
     case ("critical")
       call add_critical(variant, plan%layout, rows)
+    case ("summary")
+      call add_summary(variant, plan%layout, rows)
     case ("shapes")
       if (number > 1) call add_gap(rows, 2)
       call add_shapes(variant, plan%layout, plan%drawn(1, number), plan%drawn(2, number), rows)

@@ -6,20 +6,22 @@ module table_columns
     stress_factor, stress_unit
   use report_kinds, only: column_kind_t, columns_of, table_kind_t
   use tables, only: append_column, column_t, integer_column, name_column, real_cells, real_column
-  use text, only: string_t, to_string
+  use text, only: same_word, string_t, to_string
   use units, only: coherent_factor, coherent_unit, dimension_acceleration, dimension_inertia, &
     dimension_length, dimension_mass, dimension_none, dimension_time, dimension_velocity, from_si, &
     unit_t
   implicit none (type, external)
   private
 
-  public :: table_layout_t, name_list_t, new_table_layout, cells, column_width, table_unit, &
-    table_factor
+  public :: table_layout_t, name_list_t, new_table_layout, add_quantity_column, choose_columns, &
+    header_columns, find_chosen_cells, cells, column_width, table_unit, table_factor
 
   !> The columns of one table, with the units to which numbers in SI are converted.
   type :: table_layout_t
     type(column_t), allocatable :: columns(:)
     type(unit_t), allocatable, private :: measures(:) !! (columns)
+    integer, allocatable, private :: chosen(:)        !! numbers of the columns that the table has,
+                                                      !! in its order; not allocated: all
   end type table_layout_t
 
   !> The names that may occur in a column.
@@ -69,6 +71,76 @@ contains
       end associate
     end do
   end subroutine new_table_layout
+
+  !> Appends a column of real numbers.
+  pure subroutine add_quantity_column(layout, name, unit, outputs)
+    type(table_layout_t), intent(inout) :: layout !! of the table
+    character(len=*), intent(in) :: name          !! of the column
+    character(len=*), intent(in) :: unit          !! as in the table of reports
+    type(output_units_t), intent(in) :: outputs   !! units of the deck's results
+
+    type(unit_t), allocatable :: wider(:)
+    integer :: n
+
+    n = size(layout%measures)
+    allocate (wider(n + 1))
+    wider(:n) = layout%measures
+    wider(n + 1) = table_unit(unit, outputs)
+    call append_column(layout%columns, real_column(name, wider(n + 1)%name))
+    call move_alloc(wider, layout%measures)
+  end subroutine add_quantity_column
+
+  !> Leaves the table the columns that say what a row is about, and some of the others, in the order
+  !! in which they are named.
+  pure subroutine choose_columns(layout, keys, names)
+    type(table_layout_t), intent(inout) :: layout !! of the table
+    integer, intent(in) :: keys                   !! number of its first columns, which stay
+    type(string_t), intent(in) :: names(:)        !! in any case of letters; without others than
+                                                  !! those of columns
+
+    integer :: i, k
+
+    layout%chosen = [(k, k=1, keys)]
+    do i = 1, size(names)
+      do k = keys + 1, size(layout%columns)
+        if (same_word(layout%columns(k)%name, names(i)%text)) layout%chosen = [layout%chosen, k]
+      end do
+    end do
+  end subroutine choose_columns
+
+  !> The columns that the table has.
+  pure subroutine header_columns(layout, columns)
+    type(table_layout_t), intent(in) :: layout               !! of the table
+    type(column_t), allocatable, intent(out) :: columns(:)   !! in its order
+
+    integer :: i
+
+    if (.not. allocated(layout%chosen)) then
+      columns = layout%columns
+      return
+    end if
+    do i = 1, size(layout%chosen)
+      call append_column(columns, layout%columns(layout%chosen(i)))
+    end do
+  end subroutine header_columns
+
+  !> Where the cells of the chosen columns are in a row of all. Without a choice none are given.
+  pure subroutine find_chosen_cells(layout, first, last)
+    type(table_layout_t), intent(in) :: layout       !! of the table
+    integer, allocatable, intent(out) :: first(:)    !! (columns of the table) characters; not
+                                                     !! allocated: the table has all
+    integer, allocatable, intent(out) :: last(:)     !! likewise
+
+    integer :: begins(size(layout%columns) + 1), i
+
+    if (.not. allocated(layout%chosen)) return
+    begins(1) = 1
+    do i = 1, size(layout%columns)
+      begins(i + 1) = begins(i) + layout%columns(i)%width
+    end do
+    first = begins(layout%chosen)
+    last = begins(layout%chosen + 1) - 1
+  end subroutine find_chosen_cells
 
   !> Number of columns that an entry of the list stands for.
   pure function columns_for(kind, count, optional) result(number)
@@ -202,7 +274,7 @@ contains
     end select
   end function dimension_of
 
-  !> The cells of neighbouring columns.
+  !> The cells of neighbouring columns; blank where the table does not have the column.
   function cells(layout, first, values) result(text)
     type(table_layout_t), intent(in) :: layout !! of the table
     integer, intent(in) :: first               !! number of the first column
@@ -215,7 +287,16 @@ contains
     do i = 1, size(values)
       converted(i) = from_si(values(i), layout%measures(first + i - 1))
     end do
-    text = real_cells(converted)
+    if (.not. allocated(layout%chosen)) then
+      text = real_cells(converted)
+      return
+    end if
+    ! Digits take time.
+    text = ""
+    do i = 1, size(values)
+      if (any(layout%chosen == first + i - 1)) text(number_width*(i - 1) + 1:number_width*i) = &
+        real_cells(converted(i:i))
+    end do
   end function cells
 
   !> Width of a column in characters.

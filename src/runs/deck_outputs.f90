@@ -10,6 +10,7 @@ module deck_outputs
   use report_kinds, only: table_kind_t
   use report_rows, only: find_rows
   use report_table, only: plan_table, reports, table_in_units, table_notes, table_plan_t
+  use table_columns, only: header_columns
   use table_rows, only: add_failed_row, rows_t
   use tables, only: begin_variant, column_t, discard_table, finish_table, open_table, &
     publish_table, table_t, write_header, write_notes, write_rows
@@ -87,6 +88,7 @@ contains
       call open_table(folder, trim(outputs%kinds(i)%name), csv, outputs%tables(i), error, &
         .not. outputs%plain)
       if (allocated(error)) return
+      outputs%tables(i)%has_blocks = outputs%kinds(i)%has_blocks
     end do
     call open_output(folder, echo_name, outputs%echo, error)
     if (.not. allocated(error)) call open_output(folder, log_name, outputs%log, error)
@@ -146,6 +148,7 @@ contains
 
     type(table_plan_t) :: plan
     type(string_t), allocatable :: notes(:)
+    type(column_t), allocatable :: columns(:)
     integer(long) :: before(2)
     integer :: i, first
 
@@ -154,8 +157,8 @@ contains
       call plan_table(outputs%kinds(i), variant, plan)
       call table_notes(plan%name, variant, notes)
       associate (table => outputs%tables(i))
-        call begin_rows(outputs, table, variant%model%title, notes, plan%layout%columns, &
-          variant%model%varied)
+        call header_columns(plan%layout, columns)
+        call begin_rows(outputs, table, variant%model%title, notes, columns, variant%model%varied)
         do first = 1, plan%items, items_at_a_time
           call write_items(table, plan, variant, first, &
             min(first + items_at_a_time - 1, plan%items), threads)

@@ -16,7 +16,7 @@ module deck_runs
   use interruption, only: was_interrupted, was_out_of_time
   use kinds, only: wp
   use link_store, only: link_store_t
-  use models, only: model_t, solver_band
+  use models, only: model_t, report_number, solver_band
   use part_files, only: find_parts, read_parts, refuse_part
   use program_version, only: version_number
   use progress, only: end_progress, progress_t, show_progress, start_progress
@@ -232,9 +232,10 @@ contains
     type(string_t), allocatable :: of_run(:)
     character(len=:), allocatable :: warning, drawing
 
-    ! Of variants only frequencies are drawn.
+    ! Of variants only frequencies and summaries are drawn.
     drawing = command
-    if (session%totals%variants > 1 .and. .not. session%totals%has_frequencies) drawing = ""
+    if (session%totals%variants > 1 .and. .not. session%totals%has_frequencies .and. &
+      report_number(deck%model, "summary") == 0) drawing = ""
     warning = ""
     of_run = warnings_of_grade(session%findings, grade_meaningless)
     if (size(of_run) > 0) warning = of_run(1)%text

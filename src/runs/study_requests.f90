@@ -10,7 +10,7 @@ module study_requests
   use linkage_motion_study, only: linkage_motion_request_t
   use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_lumped, model_t, needs_loads, needs_study, &
-    report_number, accuracy_of_study, solver_band, solver_dense
+    report_number, report_with, accuracy_of_study, solver_band, solver_dense
   use motion_study, only: motion_request_t
   use motor_cards, only: motor_t
   use positions, only: positions_t
@@ -165,7 +165,7 @@ contains
           model%materials(link%material)%youngs_modulus
       end associate
     end do
-    call add_places(mechanism, report_number(model, "response") > 0, report_number(model, &
+    call add_places(mechanism, report_with(model, "response") > 0, report_with(model, &
       "strains") > 0, request)
   end function response_request_of
 

@@ -13,6 +13,7 @@ module variant_rows
   use run_findings, only: add_failure, failure_t, findings_t, get_findings, of_variant, &
     put_findings
   use run_totals, only: get_totals, put_totals, run_totals_t, totals_of
+  use table_columns, only: header_columns
   use table_rows, only: add_failed_row, get_rows, put_rows, rows_t
   use tables, only: column_t
   use text, only: string_t
@@ -71,7 +72,7 @@ contains
     do i = 1, size(tables)
       call plan_table(tables(i), variant, plans(i))
       call table_notes(plans(i)%name, variant, rows%tables(i)%notes)
-      if (leads) rows%tables(i)%columns = plans(i)%layout%columns
+      if (leads) call header_columns(plans(i)%layout, rows%tables(i)%columns)
     end do
     if (leads) then
       rows%log = log_of_variant(variant)

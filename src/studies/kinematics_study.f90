@@ -9,7 +9,7 @@ module kinematics_study
   implicit none (type, external)
   private
 
-  public :: kinematics_result_t, find_kinematics, kinematics_at
+  public :: kinematic_values, kinematics_result_t, find_kinematics, kinematics_at
 
   !> Number of values of `kinematics_at`.
   integer, parameter :: kinematic_values = 11

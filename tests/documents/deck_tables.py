@@ -24,7 +24,7 @@ CARDS = {
 BEAMS, BODIES = " material=steel section=strip", " mass=1"
 # Frequencies and the elastic response refuse friction.
 FURTHER = {"friction": ["FRICTION O2 radius=5 coefficient=0.1"]}
-KEYS = {"motion": " crank=30 end=1 step=0.1", "geometry": " crank=30", "transient": " turns=1"}
+KEYS = {"motion": " crank=30 end=1 step=0.1", "geometry": " crank=30", "transient": " turns=1", "summary": " of=transmission_angle"}
 
 
 class Tables:
@@ -64,6 +64,9 @@ class Tables:
         for report in language(self._program).reports:
             if not self._accepts(report):
                 raise ValueError(f"the deck of all cards is refused with REPORT {report}")
+            if report == "summary":
+                yield [Word(f"`{report}`"), Word(NEEDED), *[Word("as the reports of its quantities")] * 4]
+                continue
             yield [Word(f"`{report}`"),
                    Word(UNUSED if self._accepts(report, without=["CRANK"]) else NEEDED),
                    Word(self._links(report)), Word(self._mesh(report)), Word(self._inertia(report)),

@@ -11,8 +11,9 @@ module computed_decks
   use report_kinds, only: any_linkage, four_bars, other_linkages, table_kind_t
   use report_rows, only: find_rows
   use report_table, only: plan_table, reports, table_in_units, table_notes, table_plan_t
+  use table_columns, only: header_columns
   use table_rows, only: rows_t
-  use tables, only: finish_table, open_table, publish_table, table_t, write_header, write_rows
+  use tables, only: column_t, finish_table, open_table, publish_table, table_t, write_header, write_rows
   use task_journal, only: journal_t
   use text, only: string_t
   use variant_results, only: variant_results_t
@@ -141,6 +142,7 @@ contains
     type(table_plan_t) :: plan
     type(rows_t) :: rows
     type(string_t), allocatable :: notes(:)
+    type(column_t), allocatable :: columns(:)
     type(table_t) :: table
     type(error_t), allocatable :: error
     integer :: unit, length
@@ -151,7 +153,8 @@ contains
     call rows_of_table(found, name, 1, rows)
     call open_table(".", scratch, .false., table, error)
     if (allocated(error)) return
-    call write_header(table, found%model%title, notes, plan%layout%columns)
+    call header_columns(plan%layout, columns)
+    call write_header(table, found%model%title, notes, columns)
     call write_rows(table, rows)
     call finish_table(table, error)
     call publish_table(table, error)

@@ -30,7 +30,7 @@ PIECES = [b"\0", b"\t", b"\r", b"\n", b"\r\n", b"&", b" & \n", b"!", b"#", b"=",
           b"x"*5000, b"\n"*50, b"\nINCLUDE part.deck\n", b"\nINCLUDE d.deck\n", b"\nSET x 1\n", b"\nVARY x 1 2\n", b"$half", b"&\n"*20, b"%s%n", b"{", b"()", b"END\n", b"NaN", b"*****"]
 # Reports that a sound deck with beams asks for, and those that need a card of their own or keys; all others fit any deck.
 BEAM_REPORTS = ["kinematics", "inertia", "mesh", "frequencies", "shapes", "branches"]
-OWN_CARD_REPORTS = ["motion", "transient"]
+OWN_CARD_REPORTS = ["motion", "transient", "summary"]
 # Those of a crank that turns at constant speed, and of a range of speeds.
 RESPONSE_REPORTS = ["response", "strains", "peaks", "drive", "validity", "stability"]
 RANGE_REPORTS = ["campbell", "intervals"]
@@ -184,6 +184,8 @@ def requests(dice, by_accuracy, own_speed, rigid):
             continue
         more = f" points={dice.choice([2, 3, 7, 40])}" if kind == "shapes" and dice.chance(0.3) else ""
         cards.append(f"REPORT {kind}{more}")
+    if dice.chance(0.1):
+        cards.append(f"REPORT summary of={dice.choice(['f1', 'f1,transmission_angle', 'f2,f1', 'torque', 'shaking_force,f1,bearing_force'])}")
     if not any(card.startswith("REPORT") for card in cards):
         cards.append("REPORT kinematics")
     return cards

@@ -11,7 +11,7 @@ module report_kinds
   private
 
   public :: report_kind_t, table_kind_t, column_kind_t, report_names, kind_named, columns_of, &
-    is_column_of, default_number, kind_of_linkage
+    is_column_of, default_number, kind_of_linkage, key_count
   public :: any_linkage, four_bars, other_linkages
 
   !> The linkages that a report is about.
@@ -26,6 +26,7 @@ module report_kinds
   type :: table_kind_t
     character(len=16) :: name = ""     !! of the table; blank: unused record
     character(len=320) :: columns = "" !! with units, as above
+    logical :: has_blocks = .true.     !! empty lines separate the variants of a deck
   end type table_kind_t
 
   type :: report_kind_t
@@ -34,7 +35,7 @@ module report_kinds
     character(len=160) :: pattern = "" !! correct form of the card, its keys end with `=`; blank:
                                        !! the name alone
     character(len=64) :: default = "" !! default entries of its card; blank: none
-    character(len=32) :: studies = "" !! that provide its rows, separated by blanks
+    character(len=64) :: studies = "" !! that provide its rows, separated by blanks
     logical :: positions = .false.    !! it has rows for every crank angle
     logical :: masses = .false.       !! it uses masses and their loads
     logical :: beams = .false.        !! it uses links as beams
@@ -137,6 +138,21 @@ contains
       columns(i)%unit = units(i)%text
     end do
   end subroutine columns_of
+
+  !> How many columns say what a row is about: the first ones, with times, speeds, positions, names
+  !! and whole numbers. The others have values.
+  pure function key_count(columns) result(count)
+    type(column_kind_t), intent(in) :: columns(:) !! of a table
+    integer :: count
+
+    do count = 0, size(columns) - 1
+      associate (next => columns(count + 1))
+        if (all(next%name /= [character(len=5) :: "time", "speed", "crank"]) .and. &
+          all(next%unit /= [character(len=4) :: "name", "#"])) return
+      end associate
+    end do
+    count = size(columns)
+  end function key_count
 
   !> Splits a list of columns into names with their marks and the unit of each.
   pure subroutine split_columns(list, names, units)

@@ -5,6 +5,7 @@ module variations
   use kinds, only: wp
   use numbers, only: number_length, shortest_text
   use report_kinds, only: is_column_of, kind_named, report_kind_t
+  use summary_quantities, only: is_summary_column
   use text, only: lower_case, same_word
   use tokens, only: token_part, token_t
   use units, only: dimension_none, si_units
@@ -94,7 +95,9 @@ contains
     do i = 1, size(cards)
       if (.not. same_word(cards(i)%keyword%text, "REPORT") .or. size(cards(i)%words) == 0) cycle
       k = kind_named(reports, lower_case(cards(i)%words(1)%text))
-      if (k > 0) is = is .or. is_column_of(reports(k), name)
+      if (k == 0) cycle
+      is = is .or. is_column_of(reports(k), name)
+      if (reports(k)%name == "summary") is = is .or. is_summary_column(name)
     end do
   end function is_column
 

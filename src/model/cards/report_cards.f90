@@ -7,7 +7,8 @@ module report_cards
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: fineness, wp
   use report_kinds, only: default_number, kind_named, report_kind_t, report_names
-  use text, only: joined, lower_case, to_string, word_list
+  use summary_cards, only: read_summary, summary_card_t
+  use text, only: joined, lower_case, same_word, to_string, word_list
   use tokens, only: token_t
   use transient_cards, only: read_transient, transient_card_t
   use units, only: dimension_angle, dimension_length, dimension_none, dimension_rate, &
@@ -23,6 +24,9 @@ module report_cards
   !! over the turn; on stability, of exponents; of intervals, relative to the speed.
   real(wp), parameter :: finest_response_accuracy = 1.0e-12_wp*fineness, &
     coarsest_response_accuracy = 1.0e-2_wp
+
+  !> `accuracy=` of REPORT summary, where it is not written out: most quantities have none.
+  real(wp), parameter :: usual_response_accuracy = 1.0e-6_wp
 
   !> `fluctuation=` of REPORT sizing.
   real(wp), parameter :: least_fluctuation = 1.0e-6_wp, most_fluctuation = 1.0_wp
@@ -55,6 +59,9 @@ module report_cards
     real(wp) :: about(2) = 0.0_wp    !! in global axes [m]
     real(wp) :: fluctuation = 0.0_wp !! of REPORT sizing; 0: no flywheel is asked for [-]
     type(token_t) :: about_pin       !! value of `about=pin`; without a line if it is not given
+    type(summary_card_t) :: summary  !! REPORT summary
+    type(token_t), allocatable :: columns(:) !! `columns=` of all but motion: what its first table
+                                     !! has; not allocated: all
   end type report_t
 
   !> A motion with more rows than this is taken for a mistake.
@@ -63,10 +70,11 @@ module report_cards
 contains
 
   !> Reads `REPORT kind`; shapes with `crank=`, `speed=` and `points=`, geometry with its crank
-  !! angles, motion with start, end and step, frame with its point. Errors: an unknown kind, words
-  !! or keys that do not fit it, a missing or unreadable value, fewer than two `points=`, an
-  !! `accuracy=` out of range, a motion whose end or step is not above 0, whose step exceeds its
-  !! end, or which has more than a million steps.
+  !! angles, motion with start, end and step, frame with its point, summary with its quantities,
+  !! several with `columns=`. Errors: an unknown kind, words or keys that do not fit it, a
+  !! missing or unreadable value, fewer than two `points=`, an `accuracy=` out of range, a motion
+  !! whose end or step is not above 0, whose step exceeds its end, or which has more than a
+  !! million steps, an unknown quantity, a column named twice.
   pure subroutine read_report(card, reports, system, diagnostics, report, by_length)
     type(card_t), intent(in) :: card                  !! the REPORT card
     type(report_kind_t), intent(in) :: reports(:)     !! (kinds) all that exist
@@ -125,7 +133,12 @@ contains
       call read_sizing(card, system, diagnostics, report)
     case ("frame")
       call read_frame(card, system, diagnostics, report)
+    case ("summary")
+      call read_summary(card, known_keys, diagnostics, report%summary)
+      call read_response(card, system, diagnostics, report)
     end select
+    if (report%kind%name /= "motion" .and. entry_number(card, "columns") > 0) &
+      call read_chosen_columns(card, diagnostics, report)
   end subroutine read_report
 
   !> Reads `REPORT response [accuracy=]`, and the other reports on the elastic linkage in motion.
@@ -141,6 +154,7 @@ contains
     call read_entry_accuracy(card, finest_response_accuracy, coarsest_response_accuracy, system, &
       diagnostics, accuracy, fine)
     report%accuracy = default_number(report%kind, "accuracy")
+    if (report%accuracy <= 0.0_wp) report%accuracy = usual_response_accuracy
     if (fine) report%accuracy = accuracy
   end subroutine read_response
 
@@ -333,6 +347,30 @@ contains
         report%instants)
     end if
   end subroutine read_motion
+
+  !> Reads `columns=` of other reports. What columns there are depends on the linkage. Errors: a
+  !! column named twice.
+  pure subroutine read_chosen_columns(card, diagnostics, report)
+    type(card_t), intent(in) :: card
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(report_t), intent(inout) :: report
+
+    type(token_t), allocatable :: words(:)
+    logical :: fine
+    integer :: i, k
+
+    call find_items(card, "columns", diagnostics, words, fine)
+    if (.not. fine) return
+    do i = 2, size(words)
+      do k = 1, i - 1
+        if (.not. same_word(words(i)%text, words(k)%text)) cycle
+        call add_error(diagnostics, words(i), "'"//words(i)%text//"' is given twice", words(k), &
+          "first given here")
+        exit
+      end do
+    end do
+    call move_alloc(words, report%columns)
+  end subroutine read_chosen_columns
 
   !> Reads `columns=` of REPORT motion: what stands in its tables beside what always does.
   pure subroutine read_columns(card, diagnostics, report)

@@ -7,7 +7,7 @@ module response_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use kinds, only: wp
   use models, only: inertia_lumped, model_t, needs_response, report_in_motion, &
-    report_number
+    report_number, report_with
   use name_checks, only: link_ends
   use name_index, only: name_index_t, new_name_index
   use text, only: same_word
@@ -119,7 +119,7 @@ contains
       "asked for"
     integer :: i
 
-    if (report_number(model, "strains") == 0 .and. report_number(model, "transient") == 0) then
+    if (report_with(model, "strains") == 0 .and. report_number(model, "transient") == 0) then
       do i = 1, size(model%gauges)
         if (model%gauges(i)%name%line == 0) cycle
         call add_warning(diagnostics, model%gauges(i)%name, &
@@ -236,7 +236,7 @@ contains
 
     integer :: i, report
 
-    report = max(report_number(model, "strains"), report_number(model, "peaks"), &
+    report = max(report_with(model, "strains"), report_number(model, "peaks"), &
       report_number(model, "transient"))
     if (report == 0) return
     do i = 1, size(model%sections)

@@ -338,8 +338,8 @@ contains
     damper = findloc(model%springs%damps, .true., dim=1)
     do i = 1, size(model%reports)
       associate (report => model%reports(i))
-        if (report%kind%frequencies .and. report%kind%name /= "frequencies" .and. &
-          damper > 0) then
+        if (report%kind%frequencies .and. all(report%kind%name /= ["frequencies", &
+          "summary    "]) .and. damper > 0) then
           call add_error(diagnostics, report%keyword, "with dampers the shapes of modes are "// &
             "complex: REPORT "//trim(report%kind%name)//" takes none", &
             model%springs(damper)%keyword, "the first one is here")

@@ -2,6 +2,7 @@
 module deck_checks
   use balance_turn_checks, only: check_balance_turn
   use beam_mesh, only: moving_unknowns
+  use column_checks, only: check_columns
   use crank_cycle, only: turns_freely
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use drawing_checks, only: check_drawing
@@ -49,6 +50,7 @@ contains
     type(assembly_t) :: assembly
     integer :: pivot(2)
 
+    call check_columns(model, diagnostics)
     call check_drawing(model, diagnostics)
     call assemble_linkage(model, assembly)
     if (allocated(assembly%problem)) then

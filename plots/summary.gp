@@ -1,0 +1,84 @@
+# What summary.dat has of every variant against a varied parameter: bands from the least to the greatest value with the mean between.
+#   gnuplot -c summary.gp summary.dat OUT PARAMETER [FIGURE [REMARK]]
+# Frequencies share a panel, damping ratios too, every other quantity has its own. Other parameters are those of the first row.
+
+load ARG0[1 : strlen(ARG0) - strlen("summary.gp")]."style.gp"
+table = ARG1; out = ARG2; parameter = ARG3; figure = argument(4); remark = argument(5)
+
+eval answer(table, "facts")
+varied = answer(table, "varied")
+# A name may be one that no variable can have.
+unit_named(name) = (its_unit = answer(table, "unit ".name), its_unit eq "-" ? "" : typeset(its_unit))
+with_unit(text, name) = unit_named(name) eq "" ? text : text." ".unit_named(name)
+fixed = ""
+place = 0
+do for [k=1:words(varied)] {
+    name = word(varied, k)
+    if (name eq parameter) { place = k } else { fixed = fixed.(fixed eq "" ? ";  " : ", ").with_unit(sprintf("%s = %.10g", inside(name, 30), word(answer(table, "distinct ".name), 1) + 0), name) }
+}
+echo = system("dirname ".quoted(table))."/echo.deck"
+meaning = system("[ ! -f ".quoted(echo)." ] || awk -v name=".quoted(parameter)." -f ".quoted(plots."meaning.awk")." < ".quoted(echo))
+headline = numbered(figure, "Least, mean and greatest against ".(meaning eq "" ? inside(parameter, 50) : "the ".inside(meaning, 50)))
+note = "bands: least to greatest over the computed positions and speeds, lines: mean".fixed
+
+# The quantities of every panel: their names in the columns.
+is_mean(name) = strlen(name) > 5 && name[strlen(name) - 4 : *] eq "_mean"
+frequencies = ""
+ratios = ""
+others = ""
+do for [name in columns] {
+    if (is_mean(name)) {
+        quantity = name[1 : strlen(name) - 5]
+        if (is_numbered(quantity, "f")) { frequencies = frequencies." ".quantity } else {
+            if (is_numbered(quantity, "zeta")) { ratios = ratios." ".quantity } else { others = others." ".quantity }
+        }
+    }
+}
+panels = (words(frequencies) > 0) + (words(ratios) > 0) + words(others)
+array quantities_of[panels]
+array axis_of[panels]
+array unit_of[panels]
+array curves_of[panels]
+array titles_of[panels]
+panel = 0
+if (words(frequencies) > 0) { panel = panel + 1; quantities_of[panel] = frequencies; axis_of[panel] = "natural frequency" }
+if (words(ratios) > 0) { panel = panel + 1; quantities_of[panel] = ratios; axis_of[panel] = "damping ratio" }
+with_blanks(text) = strstrt(text, "_") == 0 ? text : text[1 : strstrt(text, "_") - 1]." ".with_blanks(text[strstrt(text, "_") + 1 : *])
+do for [name in others] { panel = panel + 1; quantities_of[panel] = name; axis_of[panel] = with_blanks(name) }
+do for [panel=1:panels] {
+    unit_of[panel] = value("unit_".word(quantities_of[panel], 1)."_mean")
+    curves_of[panel] = ""
+    titles_of[panel] = ""
+    do for [name in quantities_of[panel]] {
+        curves_of[panel] = curves_of[panel].sprintf(" field('%s_mean')", name)
+        titles_of[panel] = titles_of[panel]." ".(axis_of[panel] eq with_blanks(name) ? "mean" : name)
+    }
+}
+
+source_of(k) = "< awk -v want=".quoted("rows_by ".parameter)." -f ".quoted(plots."tables.awk")." < ".quoted(table)
+x = sprintf("column(%d)", place)
+picked = "1"
+extent = answer(table, "range ".parameter)
+low_place = word(extent, 1) + 0.0
+high_place = word(extent, 2) + 0.0
+# A single value has a band without width: its ends are drawn as points.
+if (high_place == low_place) { margin = low_place == 0 ? 1 : 0.01*abs(low_place); low_place = low_place - margin; high_place = high_place + margin }
+x_title = "x_axis_title = abscissa_title(meaning eq '' ? parameter : meaning.', '.parameter, answer(table, 'unit '.parameter), low_place, high_place)"
+x_axis = "eval abscissa(low_place, high_place); ".x_title."; set xlabel fitted(x_axis_title, plot_width + 100, 16) noenhanced ".\
+    "font point_size(fit_size(x_axis_title, plot_width + 100, 20, 16))"
+
+least_of(panel) = (found_least = 1e300, sum [k_of=1:words(quantities_of[panel])] \
+    (found_least = lesser(found_least, value("low_".word(quantities_of[panel], k_of)."_least")), 0), found_least)
+greatest_of(panel) = (found_greatest = -1e300, sum [k_of=1:words(quantities_of[panel])] \
+    (found_greatest = larger(found_greatest, value("high_".word(quantities_of[panel], k_of)."_greatest")), 0), found_greatest)
+also_shown(panel) = least_of(panel)
+also_reached(panel) = greatest_of(panel)
+set style fill transparent solid 0.25 noborder
+edge(panel, k, end) = sprintf("source_of(1) using (%s):(field('%s_%s')) with lines lt %d lw 1 notitle, source_of(1) using (%s):(field('%s_%s')) with points lt %d pt 7 ps %g notitle, ", \
+    x, word(quantities_of[panel], k), end, k, x, word(quantities_of[panel], k), end, k, dot_size(drawn_rows))
+one_band(panel, k) = sprintf("source_of(1) using (%s):(field('%s_least')):(field('%s_greatest')) with filledcurves lt %d notitle, ", \
+    x, word(quantities_of[panel], k), word(quantities_of[panel], k), k).edge(panel, k, "least").edge(panel, k, "greatest")
+bands(panel, k) = k > words(quantities_of[panel]) ? "" : one_band(panel, k).bands(panel, k + 1)
+parts_below(panel) = bands(panel, 1)
+call plots."panels.gp"
+eval close
