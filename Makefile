@@ -26,7 +26,7 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress stress-responses stress-stability accuracies linkages loads vibrations references fuzz memory golden \
+.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress stress-responses stress-stability accuracies linkages loads vibrations references fuzz memory scaling golden \
         install setup clean help
 
 $(if $(MPI),$(if $(filter-out yes no,$(MPI)),$(error MPI=$(MPI): yes or no)))
@@ -152,6 +152,12 @@ vibrations: all
 	@python3 -B tests/linkages/random_vibrations.py $(SEED) $(shell expr $(VIBRATIONS) / 20 + 1) --kind many --program $(program)
 	@python3 -B tests/linkages/random_vibrations.py $(SEED) $(shell expr $(VIBRATIONS) / 5 + 1) --kind slotted --program $(program)
 
+# Times of tasks, ranks here, and a farm of sleeping ranks against its model: docs/scaling.md.
+scaling:
+	@MPI=yes sh $(support)/setup.sh
+	$(stage) kind=release $(program) $(of_mpi) build/scaling/record_tasks build/scaling/sleeping_ranks
+	@python3 -B tests/scaling/measure.py
+
 # Quadruple precision for every case of `make stress`: some minutes.
 references: all quad
 	@python3 -B tests/stress/make_references.py $(program) build/quad/flexmech
@@ -206,6 +212,7 @@ help:
 	@echo "make linkages           known linkages, 300 random ones against an independent solver, and in motion; LINKAGES=5000 SEED=7"
 	@echo "make loads              1,000 random linkages with loads, springs and friction against it, and in motion; LOADS=100 SEED=7"
 	@echo "make vibrations         known frequencies of linkages, and those of 1,000 random ones; VIBRATIONS=100 SEED=7"
+	@echo "make scaling            times of variants on several ranks, and a model of a farm (docs/scaling.md)"
 	@echo "make references         regenerate the quadruple-precision values of make stress (hours)"
 	@echo "make quad               build build/quad/flexmech, the program in quadruple precision (slow)"
 	@echo "make golden CASE=NAME   regenerate tests/golden/NAME/ from inputs/NAME.deck"
@@ -331,6 +338,20 @@ $(build)/stress/stability: $(verdict_sources) $(modules)
 	@echo "link $@"
 	mkdir -p $(@D)
 	$(compile) -ffree-line-length-132 $(warnings_$(kind)) -J$(@D) -I$(build) $^ $(libraries) -o $@
+
+# ------------------------------------------------------------- programs that record tasks, and repeat them asleep on many ranks
+recorded = $(patsubst %,tests/scaling/%.f90,$(1))
+scaling  = $(compile) -ffree-line-length-132 -Jbuild/scaling -I$(build)
+
+build/scaling/record_tasks: $(call recorded,recorded_jobs record_tasks) $(modules)
+	@echo "link $@"
+	mkdir -p $(@D)
+	$(scaling) $^ $(libraries) -o $@
+
+build/scaling/sleeping_ranks: $(call recorded,sleeping_jobs sleeping_ranks) $(filter-out %/ranks_alone.o,$(modules)) build/mpi/ranks_mpi.o
+	@echo "link $@"
+	mkdir -p $(@D)
+	mpifort $(wordlist 2,99,$(scaling)) $^ $(libraries) -o $@
 
 # ------------------------------------------------------------------------------ unit tests with the bundled support
 test_files := $(wildcard tests/unit/*.pf tests/unit/*/*.pf tests/unit/*/*/*.pf)

@@ -1,10 +1,13 @@
 !> The command line as a value.
 module command_line
+  use durations, only: read_duration
   use errors, only: error_of_input, error_t, set_error
+  use kinds, only: wp
   use numbers, only: read_integer
   use option_table, only: choices_of, column_of_help, option_names, options, takes_value
   use program_version, only: program_name, version_number
   use spelling, only: suggestion
+  use study_parts, only: part_t, read_part
   use text, only: joined, same_word, string_t, word_list
   use tokens, only: check_name
   implicit none (type, external)
@@ -22,6 +25,10 @@ module command_line
     logical :: check_only = .false.
     logical :: quiet = .false.
     logical :: resume = .false.
+    type(part_t) :: part                       !! of `--part`
+    logical :: join = .false.                  !! put parts together
+    character(len=:), allocatable :: limit     !! of `--time-limit`, as it was given
+    real(wp) :: most_time = huge(1.0_wp)       !! the same [s]
     logical :: csv = .false.                   !! tables as comma-separated values too
     logical :: csv_only = .false.              !! and not as plain text
     logical :: stats = .false.
@@ -78,9 +85,28 @@ contains
     if (allocated(error)) command%json = any([(words(i)%text == "--json", i=1, size(words))])
     if (allocated(error) .or. command%help .or. command%help_cards .or. command%version .or. &
       command%manual .or. allocated(command%shell)) return
+    call check_parts(command, error)
+    if (allocated(error)) return
     if (size(command%decks) == 0) call set_error(error, error_of_input, &
       "no deck given; flexmech --help shows how to run one")
   end subroutine read_command_line
+
+  !> Errors: options that contradict `--part` or `--join`.
+  pure subroutine check_parts(command, error)
+    type(command_t), intent(in) :: command
+    type(error_t), allocatable, intent(inout) :: error
+
+    if (command%part%count > 0 .and. command%join) then
+      call set_error(error, error_of_input, &
+        "options --part and --join exclude each other: parts are computed one by one, then joined")
+    else if (command%join .and. command%resume) then
+      call set_error(error, error_of_input, &
+        "option --resume has no meaning with --join: it computes nothing")
+    else if (command%part%count > 0 .and. index(command%valued, " --format ") > 0) then
+      call set_error(error, error_of_input, "option --format has no meaning with --part: "// &
+        "a part has no tables; give it with --join")
+    end if
+  end subroutine check_parts
 
   function arguments() result(words)
     type(string_t), allocatable :: words(:)
@@ -159,6 +185,8 @@ contains
       command%quiet = .true.
     case ("--resume")
       command%resume = .true.
+    case ("--join")
+      command%join = .true.
     case ("--stats")
       command%stats = .true.
     case ("--json")
@@ -230,6 +258,13 @@ contains
       command%csv_only = value == "csv-only"
       command%csv = value == "csv" .or. command%csv_only
       call check_choice(name, "format", value, error)
+    case ("--part")
+      call read_part(value, command%part, error)
+    case ("--time-limit")
+      command%limit = value
+      call read_duration(value, command%most_time, not_a_number)
+      if (allocated(not_a_number)) call set_error(error, error_of_input, "option "//name// &
+        " needs "//not_a_number%text//", not '"//value//"'")
     case ("--completion")
       command%shell = value
       call check_choice(name, "shell", value, error)

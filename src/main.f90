@@ -5,16 +5,17 @@ program main
   use card_help, only: card_help_text
   use command_line, only: command_t, help_text, read_command_line, version_text
   use deck_readings, only: deck_t, read_deck
-  use deck_runs, only: run_deck, run_options_t
+  use deck_runs, only: check_parts, run_deck, run_options_t
   use errors, only: error_of_interruption, error_t, rendered
   use figures_command, only: command_for_figures
-  use interruption, only: was_interrupted, watch_for_interruption
+  use interruption, only: limit_time, was_interrupted, watch_for_interruption
   use kinds, only: wp
   use manual_page, only: manual_page_text
   use rank_service, only: dismiss_ranks, serve_leader
-  use ranks, only: leader, own_rank, start_ranks
+  use ranks, only: leader, own_rank, ranks_here, start_ranks
   use run_document, only: deck_outcome_t, document_text
   use shell_completion, only: completion_text
+  use stopwatch, only: lap, start_stopwatch, stopwatch_t
   use text, only: string_t
   implicit none (type, external)
 
@@ -23,10 +24,14 @@ program main
   type(deck_outcome_t), allocatable :: outcomes(:)
   type(run_options_t) :: options
   type(error_t), allocatable :: error
-  integer :: i, j, status
+  type(stopwatch_t) :: watch
+  real(wp) :: so_far
+  integer :: i, j, status, processes
   logical :: refused
 
+  call start_stopwatch(watch)
   call start_ranks()
+  processes = ranks_here()
   call read_command_line(command, error)
   if (own_rank() /= leader) then
     call watch_for_interruption()
@@ -55,10 +60,28 @@ program main
     call leave(0)
   end if
 
+  options%folder = command%folder
+  options%threads = command%threads
+  options%quiet = command%quiet
+  options%resume = command%resume
+  options%csv = command%csv
+  options%figures = command_for_figures(command%program, command%search_path)
+  options%csv_only = command%csv_only
+  options%part = command%part
+  options%join = command%join
+  if (allocated(command%limit)) options%limit = command%limit
+
   allocate (decks(size(command%decks)), outcomes(size(command%decks)))
   refused = .false.
   do i = 1, size(decks)
-    call read_deck(command%decks(i)%text, command%threads, decks(i), command%settings)
+    call read_deck(command%decks(i)%text, command%threads, decks(i), command%settings, &
+      processes)
+    if (was_interrupted()) then
+      call complain(outcomes(i), "interrupted")
+      call say(command%decks(i)%text//": interrupted"//achar(10))
+      outcomes(i)%exit_status = 130
+      call finish(130, "")
+    end if
     if (.not. command%quiet) call say(decks(i)%warnings)
     call say(decks(i)%errors)
     if (len(decks(i)%errors) > 0) outcomes(i)%exit_status = 2
@@ -69,6 +92,12 @@ program main
       call say("flexmech: error: "//outcomes(i)%complaints(size(outcomes(i)%complaints))%text// &
         achar(10))
     end do
+    if (outcomes(i)%exit_status /= 2) call check_parts(decks(i), options, error)
+    if (allocated(error)) then
+      call complain(outcomes(i), error%text)
+      call say(rendered(error)//achar(10))
+      deallocate (error)
+    end if
     refused = refused .or. outcomes(i)%exit_status == 2
   end do
   if (refused) call finish(2, "")
@@ -78,13 +107,9 @@ program main
   end if
 
   call watch_for_interruption()
-  options%folder = command%folder
-  options%threads = command%threads
-  options%quiet = command%quiet
-  options%resume = command%resume
-  options%csv = command%csv
-  options%figures = command_for_figures(command%program, command%search_path)
-  options%csv_only = command%csv_only
+  ! Decks are checked as a whole, however long it takes.
+  call lap(watch, so_far)
+  call limit_time(command%most_time - so_far)
   do i = 1, size(decks)
     call run_deck(decks(i), options, outcomes(i)%result, error)
     if (allocated(error)) then

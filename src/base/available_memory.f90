@@ -22,16 +22,24 @@ contains
 
   !> The least of what the machine has free, what its control groups leave, and what the limit of
   !! address space leaves.
-  function find_available_memory(threads) result(available)
-    integer, intent(in) :: threads !! of the run
-    type(available_memory_t) :: available
+  function find_available_memory(threads, processes) result(available)
+    integer, intent(in) :: threads             !! of the run
+    integer, intent(in), optional :: processes !! of the run on this machine, which share its
+                                               !! memory; absent: one
+    type(available_memory_t) :: available      !! for one of them
 
     real(wp) :: limit, taken
+    character(len=:), allocatable :: shared
+    integer :: sharing
 
+    sharing = 1
+    if (present(processes)) sharing = processes
+    shared = ""
+    if (sharing > 1) shared = "for each of "//to_string(sharing)//" processes"
     available%clause = ""
     limit = number_after("/proc/meminfo", "MemAvailable:")
-    if (limit >= 0.0_wp) call lower(kibibyte*limit, "this machine has", "free")
-    call lower(left_by_groups(), "its control group leaves", "")
+    if (limit >= 0.0_wp) call lower(kibibyte*limit/sharing, "this machine has", "free "//shared)
+    call lower(left_by_groups()/sharing, "its control group leaves", shared)
     limit = number_after("/proc/self/limits", "Max address space")
     taken = number_after("/proc/self/status", "VmSize:")
     if (limit >= 0.0_wp .and. taken >= 0.0_wp) then

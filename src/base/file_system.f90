@@ -1,13 +1,24 @@
 !> The few operating system calls that Fortran lacks.
 module file_system
-  use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr
-  use text, only: string_t
+  use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_long, &
+    c_null_char, c_null_ptr, c_ptr, c_size_t
+  use kinds, only: long
+  use text, only: append_string, string_t
   implicit none (type, external)
   private
 
   public :: is_directory, file_exists, make_directories, rename_file, remove_file, &
-    remove_empty_directory
+    remove_empty_directory, shorten_file, find_matching_files
   public :: base_name, file_name, joined_path, real_path, standard_error_is_terminal
+
+  !> The result of `glob`, as the C libraries of Linux have it: its members of POSIX, and more
+  !! room than their own ones need.
+  type, bind(c) :: glob_t
+    integer(c_size_t) :: count = 0_c_size_t
+    type(c_ptr) :: paths = c_null_ptr
+    integer(c_size_t) :: offset = 0_c_size_t
+    integer(c_long) :: others(32) = 0_c_long
+  end type glob_t
 
   interface
     function c_opendir(path) bind(c, name="opendir") result(directory)
@@ -48,6 +59,34 @@ module file_system
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int) :: status
     end function c_rmdir
+
+    !> `off_t` is a long integer on all machines of 64 bits.
+    function c_truncate(path, length) bind(c, name="truncate") result(status)
+      import :: c_char, c_int, c_long
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_long), value :: length
+      integer(c_int) :: status
+    end function c_truncate
+
+    function c_glob(pattern, flags, on_error, found) bind(c, name="glob") result(status)
+      import :: c_char, c_int, c_ptr, glob_t
+      character(kind=c_char), intent(in) :: pattern(*)
+      integer(c_int), value :: flags
+      type(c_ptr), value :: on_error
+      type(glob_t), intent(inout) :: found
+      integer(c_int) :: status
+    end function c_glob
+
+    subroutine c_globfree(found) bind(c, name="globfree")
+      import :: glob_t
+      type(glob_t), intent(inout) :: found
+    end subroutine c_globfree
+
+    function c_strlen(string) bind(c, name="strlen") result(length)
+      import :: c_ptr, c_size_t
+      type(c_ptr), value :: string
+      integer(c_size_t) :: length
+    end function c_strlen
 
     !> `resolved` needs at least PATH_MAX bytes, which is 4096 at most.
     function c_realpath(path, resolved) bind(c, name="realpath") result(found)
@@ -137,6 +176,68 @@ contains
 
     status = c_rmdir(path//c_null_char)
   end subroutine remove_empty_directory
+
+  !> Cuts off the end of a file. Failures are ignored.
+  subroutine shorten_file(path, bytes)
+    character(len=*), intent(in) :: path  !! of the file
+    integer(long), intent(in) :: bytes    !! that remain
+
+    integer(c_int) :: status
+
+    status = c_truncate(path//c_null_char, int(bytes, c_long))
+  end subroutine shorten_file
+
+  !> The files of a folder whose names begin with a text, in the order of the bytes of their names.
+  subroutine find_matching_files(folder, beginning, names)
+    character(len=*), intent(in) :: folder                !! existing, or not
+    character(len=*), intent(in) :: beginning             !! of the names
+    type(string_t), allocatable, intent(out) :: names(:)  !! without the folder
+
+    integer(c_int), parameter :: no_flags = 0_c_int
+    type(glob_t) :: found
+    type(c_ptr), pointer :: paths(:)
+    character(kind=c_char), pointer :: path(:)
+    integer(c_int) :: status
+    integer :: i, first
+
+    allocate (names(0))
+    first = len(joined_path(folder, "")) + 1
+    status = c_glob(escaped(joined_path(folder, beginning))//"*"//c_null_char, no_flags, &
+      c_null_ptr, found)
+    if (status == 0) then
+      call c_f_pointer(found%paths, paths, [found%count])
+      do i = 1, size(paths)
+        call c_f_pointer(paths(i), path, [c_strlen(paths(i))])
+        call append_string(names, text_of(path(first:)))
+      end do
+    end if
+    call c_globfree(found)
+  end subroutine find_matching_files
+
+  !> A text without the meaning that some characters have in patterns of names.
+  pure function escaped(words) result(text)
+    character(len=*), intent(in) :: words
+    character(len=:), allocatable :: text
+
+    integer :: i
+
+    text = ""
+    do i = 1, len(words)
+      if (scan(words(i:i), "*?[]\") > 0) text = text//"\"
+      text = text//words(i:i)
+    end do
+  end function escaped
+
+  pure function text_of(characters) result(text)
+    character(kind=c_char), intent(in) :: characters(:)
+    character(len=size(characters)) :: text
+
+    integer :: i
+
+    do i = 1, size(characters)
+      text(i:i) = characters(i)
+    end do
+  end function text_of
 
   !> The last part of a path without its last extension: `inputs/one.deck` gives `one`.
   pure function base_name(path) result(name)

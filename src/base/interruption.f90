@@ -1,18 +1,22 @@
-!> Catches Ctrl-C and termination requests, so that a run can stop between two positions and leave
-!! nothing half done.
+!> Catches Ctrl-C and termination requests, and knows when the time allowed is over, so that a run
+!! can stop between two positions and leave nothing half done.
 !!
-!! The only module with a variable of its own: a signal handler has no other place for its result.
+!! The only module with variables of its own: a signal handler has no other place for its result.
 module interruption
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int
+  use kinds, only: long, wp
   implicit none (type, external)
   private
 
-  public :: watch_for_interruption, was_interrupted, interrupt
+  public :: watch_for_interruption, limit_time, was_interrupted, was_out_of_time, interrupt
 
   !> SIGINT and SIGTERM of POSIX.
   integer(c_int), parameter :: interrupt_signal = 2_c_int, terminate_signal = 15_c_int
 
   integer(c_int), volatile :: last_signal = 0_c_int
+
+  !> Ticks of the clock at which the time allowed is over.
+  integer(long) :: last_tick = huge(last_tick)
 
   interface
     function c_signal(number, handler) bind(c, name="signal") result(previous)
@@ -33,12 +37,37 @@ contains
     previous = c_signal(terminate_signal, c_funloc(note_signal))
   end subroutine watch_for_interruption
 
-  !> Whether one of the signals has arrived since then.
+  !> Allows the program some time from now on.
+  subroutine limit_time(seconds)
+    real(wp), intent(in) :: seconds !! [s] huge: as much as it needs
+
+    integer(long) :: now, rate
+
+    call system_clock(now, rate)
+    last_tick = huge(last_tick)
+    if (seconds*real(rate, wp) < real(last_tick - now, wp)/2) last_tick = now + &
+      nint(seconds*real(rate, wp), long)
+  end subroutine limit_time
+
+  !> Whether one of the signals has arrived since then, or the time allowed is over.
   function was_interrupted() result(was)
     logical :: was
 
     was = last_signal /= 0_c_int
+    if (.not. was) was = was_out_of_time()
   end function was_interrupted
+
+  !> Whether the time allowed is over.
+  function was_out_of_time() result(was)
+    logical :: was
+
+    integer(long) :: now
+
+    was = last_tick < huge(last_tick)
+    if (.not. was) return
+    call system_clock(now)
+    was = now >= last_tick
+  end function was_out_of_time
 
   !> Does what a termination request does: this process follows another one that has got it.
   subroutine interrupt()

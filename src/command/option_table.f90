@@ -24,6 +24,11 @@ module option_table
       help="csv: comma-separated tables beside the plain ones; csv-only: only those (plain)"), &
     option_t("--resume", &
       help="continue where an earlier run of the deck was killed or interrupted"), &
+    option_t("--time-limit", "TIME", &
+      help="stop after TIME (3h50m, 90m, 45s, 3:50:00) as at an interruption"), &
+    option_t("--part", "K/N", &
+      help="compute the Kth of N parts of the variants, for --join, and write no tables"), &
+    option_t("--join", help="write the tables from the parts that --part computed"), &
     option_t("--quiet", &
       help="no warnings, progress or summary line; errors are still reported"), &
     option_t("--stats", help="report what was computed and how long it took"), &

@@ -1,17 +1,14 @@
 !> A deck as bytes and back: what other ranks need to compute any variant of it.
 module deck_bytes
   use byte_streams, only: get_integers, get_reals, get_string, put_integers, put_reals, put_string
-  use card_bytes, only: get_cards, put_cards
   use cards, only: card_t
+  use deck_card_bytes, only: get_deck_cards, put_deck_cards
   use deck_readings, only: deck_t
-  use deck_source, only: source_from_text
   use diagnostics, only: diagnostics_t
   use kinds, only: wp
-  use report_table, only: reports
   use text, only: string_t
   use text_buffer, only: text_buffer_t
   use variant_readings, only: read_variant
-  use variants, only: read_deck_cards
   implicit none (type, external)
   private
 
@@ -24,9 +21,7 @@ contains
     type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_deck`
     type(deck_t), intent(in) :: deck             !! without errors
 
-    call put_string(buffer, deck%source%path)
-    call put_string(buffer, deck%source%text)
-    call put_cards(buffer, deck%cards%written)
+    call put_deck_cards(buffer, deck%source, deck%cards)
     associate (verdict => deck%verdict)
       call put_integers(buffer, [verdict%leading, verdict%threads, verdict%refused_count])
       if (verdict%refused_count > 0) call put_integers(buffer, &
@@ -43,17 +38,12 @@ contains
     type(string_t), intent(in) :: settings(:)  !! of the command line, the same for both
     type(deck_t), intent(out) :: deck          !! not for messages: it knows no files
 
-    character(len=:), allocatable :: path, text
     type(card_t), allocatable :: cards(:)
     type(diagnostics_t) :: none
     integer :: numbers(3)
     real(wp) :: memory(1)
 
-    call get_string(bytes, at, path)
-    call get_string(bytes, at, text)
-    call get_cards(bytes, at, cards)
-    deck%source = source_from_text(path, text)
-    call read_deck_cards(cards, settings, deck%source, reports, none, deck%cards)
+    call get_deck_cards(bytes, at, settings, deck%source, deck%cards)
     associate (verdict => deck%verdict)
       call get_integers(bytes, at, numbers)
       verdict%leading = numbers(1)

@@ -20,8 +20,8 @@ module deck_outputs
   implicit none (type, external)
   private
 
-  public :: outputs_t, open_outputs, tables_of, write_variant, write_found_rows, write_texts, &
-    publish_outputs, discard_outputs, forget_waiting
+  public :: outputs_t, open_outputs, open_folder, tables_of, write_variant, write_found_rows, &
+    write_texts, publish_outputs, discard_outputs, forget_waiting
 
   !> The files of one output folder.
   type :: outputs_t
@@ -63,20 +63,15 @@ contains
     logical, intent(in), optional :: csv_only        !! with `csv`: no plain tables
 
     integer :: i
-    logical :: made
 
-    outputs%folder = folder
+    call open_folder(folder, outputs, error)
+    if (allocated(error)) return
     outputs%csv = csv
     if (present(csv_only)) outputs%plain = .not. (csv .and. csv_only)
     outputs%parameters = parameters
     outputs%kinds = tables_of(model)
+    deallocate (outputs%tables)
     allocate (outputs%tables(size(outputs%kinds)))
-    call make_directories(folder, made, outputs%is_new)
-    if (.not. made) then
-      call set_error(error, error_of_files, &
-        "this folder cannot be created; is there a file of that name?", folder)
-      return
-    end if
     ! Checked now: a folder with the name of a file would stop the renaming when some files are in
     ! place and others are not.
     do i = 1, size(outputs%kinds)
@@ -97,6 +92,21 @@ contains
     if (.not. allocated(error)) call open_output(folder, log_name, outputs%log, error)
     if (.not. allocated(error)) call open_output(folder, summary_name, outputs%summary, error)
   end subroutine open_outputs
+
+  !> Makes the folder, of a run that writes no tables. Errors: it cannot be made.
+  subroutine open_folder(folder, outputs, error)
+    character(len=*), intent(in) :: folder           !! path of the output folder
+    type(outputs_t), intent(out) :: outputs          !! to be discarded after an error
+    type(error_t), allocatable, intent(out) :: error !! why nothing can be written
+
+    logical :: made
+
+    outputs%folder = folder
+    allocate (outputs%tables(0), outputs%kinds(0))
+    call make_directories(folder, made, outputs%is_new)
+    if (.not. made) call set_error(error, error_of_files, &
+      "this folder cannot be created; is there a file of that name?", folder)
+  end subroutine open_folder
 
   !> The tables that a model requests: the first table of every report, in the order of all
   !! reports, then the second ones.

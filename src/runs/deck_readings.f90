@@ -7,6 +7,7 @@ module deck_readings
   use diagnostics, only: diagnostics_t, has_errors, render_errors, render_warnings
   use errors, only: error_of_input, error_t, rendered, set_error
   use file_system, only: base_name
+  use interruption, only: was_interrupted
   use includes, only: read_all_cards
   use models, only: model_t
   use report_table, only: reports
@@ -40,13 +41,15 @@ contains
   !!
   !! Errors: the file cannot be read, or its name gives no folder for the results (both in
   !! `refusal`); a card is wrong, memory does not suffice, or the mechanics are wrong (all in
-  !! `diagnostics`); of variants, those of `check_variants`.
-  subroutine read_deck(path, threads, deck, settings)
+  !! `diagnostics`); of variants, those of `check_variants`. After an interruption the deck is not
+  !! for use.
+  subroutine read_deck(path, threads, deck, settings, processes)
     character(len=*), intent(in) :: path                !! `-`: standard input
     integer, intent(in) :: threads                      !! that will compute the deck
     type(deck_t), intent(out) :: deck                   !! as read; its model is complete only
                                                         !! without errors
     type(string_t), intent(in), optional :: settings(:) !! of the command line, each `name=value`
+    integer, intent(in), optional :: processes          !! that share the memory; absent: one
 
     type(card_t), allocatable :: cards(:)
     type(available_memory_t) :: available
@@ -75,7 +78,7 @@ contains
     else
       call read_deck_cards(cards, none, deck%source, reports, deck%diagnostics, deck%cards)
     end if
-    available = find_available_memory(threads)
+    available = find_available_memory(threads, processes)
     if (variant_count(deck%cards) > 1 .and. .not. has_errors(deck%diagnostics)) then
       call read_variants(deck, threads, available)
     else
@@ -101,8 +104,9 @@ contains
     type(card_t), allocatable :: cards(:)
     type(diagnostics_t) :: none
 
-    call check_variants(deck%cards, threads, available, deck%diagnostics, deck%verdict)
-    if (has_errors(deck%diagnostics)) return
+    call check_variants(deck%cards, deck%source, threads, available, deck%diagnostics, &
+      deck%verdict)
+    if (has_errors(deck%diagnostics) .or. was_interrupted()) return
     call read_variant(deck%cards, deck%verdict%leading, cards, none, deck%model)
     deck%model%echo = echo_cards(deck%cards, cards, deck%model%effects, reports, deck%source)
   end subroutine read_variants

@@ -4,19 +4,20 @@ module deck_runs
   use byte_streams, only: get_integers, put_integers, put_string
   use cards, only: card_t
   use deck_bytes, only: get_deck, put_deck
-  use deck_outputs, only: discard_outputs, open_outputs, outputs_t, publish_outputs, &
+  use deck_outputs, only: discard_outputs, open_folder, open_outputs, outputs_t, publish_outputs, &
     write_found_rows, write_texts, write_variant
   use deck_readings, only: deck_t
   use deck_summary, only: summary_text
   use diagnostics, only: diagnostics_t, warnings_of, diagnostic_t
   use echo, only: echo_text
-  use errors, only: error_of_interruption, error_of_numerics, error_t, set_error
+  use errors, only: error_of_files, error_of_interruption, error_of_numerics, error_t, set_error
   use file_system, only: file_name, joined_path
   use findings_texts, only: failure_text, findings_log, findings_messages
-  use interruption, only: was_interrupted
+  use interruption, only: was_interrupted, was_out_of_time
   use kinds, only: wp
   use link_store, only: link_store_t
   use models, only: model_t, solver_band
+  use part_files, only: find_parts, read_parts, refuse_part
   use program_version, only: version_number
   use progress, only: end_progress, progress_t, show_progress, start_progress
   use result_failures, only: find_failures
@@ -25,10 +26,12 @@ module deck_runs
   use run_statistics, only: accuracy_summary, run_times_t, statistics_text
   use run_totals, only: add_totals, run_totals_t, totals_of
   use stopwatch, only: lap, start_stopwatch, stopwatch_t
+  use study_parts, only: first_variant, last_variant, part_name, part_t
   use study_requests, only: motion_instants_of
   use success_text, only: text_of_success
   use tables, only: column_t, real_column
-  use task_journal, only: close_journal, journal_t, open_journal, remove_journal
+  use task_journal, only: close_journal, journal_t, open_journal, publish_journal, &
+    remove_journal
   use text, only: plural, string_t, to_string
   use text_buffer, only: text_buffer_t
   use variant_log, only: log_of_variant
@@ -36,13 +39,13 @@ module deck_runs
   use variant_readings, only: read_variant, refusal_of_variant
   use variant_rows, only: fail_variant, variant_rows_t
   use variant_runs, only: begin_variant_run, compute_variant, help_with_sweep, variant_run_t
-  use variant_tasks, only: run_variant_tasks, variant_job_t
+  use variant_tasks, only: group_of_variants, run_variant_tasks, variant_job_t
   use variants, only: parameter_names, variant_count, variant_text, variant_values
   use warnings, only: grade_meaningless
   implicit none (type, external)
   private
 
-  public :: run_options_t, run_result_t, run_deck, help_with_blocks, blocks_announced
+  public :: run_options_t, run_result_t, check_parts, run_deck, help_with_blocks, blocks_announced
 
   !> Options of the command line that hold for every deck.
   type :: run_options_t
@@ -54,6 +57,9 @@ module deck_runs
     character(len=:), allocatable :: figures !! command that draws figures; empty or not allocated:
                                              !! not known
     logical :: csv_only = .false.           !! and not as plain text
+    type(part_t) :: part                    !! of the variants that is computed, without tables
+    logical :: join = .false.               !! put parts together
+    character(len=:), allocatable :: limit  !! of time, as the user gave it; not allocated: none
   end type run_options_t
 
   !> What a run reports besides its files.
@@ -92,7 +98,25 @@ module deck_runs
 
 contains
 
-  !> Computes the reports of a sound deck and writes its files.
+  !> Errors: the deck has no such part, or its parts cannot be joined.
+  subroutine check_parts(deck, options, error)
+    type(deck_t), intent(in) :: deck           !! without errors
+    type(run_options_t), intent(in) :: options !! of the command line
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: count
+
+    if (options%part%count == 0 .and. .not. options%join) return
+    associate (variants => variant_count(deck%cards), path => deck%source%path)
+      call refuse_part(path, variants, size(deck%cards%variations) > 0, options%part, error)
+      if (allocated(error) .or. .not. options%join) return
+      call find_parts(joined_path(options%folder, deck%base), deck%base, path, &
+        journal_title(deck), variants, count, error)
+    end associate
+  end subroutine check_parts
+
+  !> Computes the reports of a sound deck and writes its files; or a part of its variants, or the
+  !! files from all parts.
   !!
   !! Errors: the run was interrupted, no variant could be computed, or files could not be written.
   !! The output folder is then as it was before, except for the journal of a long run.
@@ -105,33 +129,26 @@ contains
     type(session_t) :: session
     type(run_times_t) :: times
     type(stopwatch_t) :: watch
-    integer :: blocks, variants
+    integer :: blocks
 
-    variants = variant_count(deck%cards)
-    call open_outputs(joined_path(options%folder, deck%base), deck%model, parameter_columns(deck), &
-      options%csv, session%outputs, error, options%csv_only)
+    call open_files(deck, options, session, blocks, error)
     if (.not. allocated(error)) then
-      call open_journal(session%outputs%folder, journal_title(deck), options%resume, &
-        session%journal, blocks)
-      call start_progress(session%progress, deck%base, &
-        trim(merge("variants ", "positions", variants > 1)), .not. options%quiet)
+      call start_progress(session%progress, deck%base, trim(merge("variants ", "positions", &
+        variant_count(deck%cards) > 1)), .not. options%quiet)
       call start_stopwatch(watch)
-      call run_variants(deck, options%threads, session, error)
+      call run_variants(deck, options, session, error)
       call lap(watch, times%variants)
       call end_progress(session%progress)
-      if (variants > 1 .and. session%outputs%computed == 0 .and. .not. (allocated(error) .or. &
-        was_interrupted())) then
-        call set_error(error, error_of_numerics, "none of the "//to_string(variants)// &
-          " variants could be computed; "//failure_text(session%findings%failed(1)), &
-          deck%source%path)
+      if (variant_count(deck%cards) > 1 .and. options%part%count == 0 .and. &
+        session%outputs%computed == 0 .and. .not. (allocated(error) .or. was_interrupted())) then
+        call set_error(error, error_of_numerics, "none of the "// &
+          to_string(variant_count(deck%cards))//" variants could be computed; "// &
+          failure_text(session%findings%failed(1)), deck%source%path)
       end if
-    end if
-    if (allocated(error)) then
       ! It would fail again: nothing to resume from.
-      call remove_journal(session%journal)
-    else
-      call publish(deck, session, error)
+      if (allocated(error)) call remove_journal(session%journal)
     end if
+    if (.not. allocated(error)) call publish(deck, options, session, error)
     if (allocated(error)) then
       call discard_outputs(session%outputs)
       return
@@ -140,15 +157,69 @@ contains
     result%findings = session%findings
     result%failed = result%findings%failures > 0
     result%messages = resumption_message(deck, options%resume, blocks)// &
-      findings_messages(result%findings, deck%source%path)
+      findings_messages(result%findings, deck%source%path, options%part%count == 0)
     result%statistics = statistics_text(deck%base, session%totals, times)
     ! Figures are drawn from plain tables.
-    if (options%csv_only .or. .not. allocated(options%figures)) then
+    if (options%part%count > 0) then
+      result%success = success_of_part(deck, options%part, session%outputs%folder)
+    else if (options%csv_only .or. .not. allocated(options%figures)) then
       result%success = success_of(deck, session, "")
     else
       result%success = success_of(deck, session, options%figures)
     end if
   end subroutine run_deck
+
+  !> Opens the files of a run and the journal that it goes on from. Errors: they cannot be made, or
+  !! parts cannot be joined.
+  subroutine open_files(deck, options, session, blocks, error)
+    type(deck_t), intent(in) :: deck
+    type(run_options_t), intent(in) :: options
+    type(session_t), intent(inout) :: session
+    integer, intent(out) :: blocks !! of an earlier run; -1: it was of another deck or program
+    type(error_t), allocatable, intent(out) :: error
+
+    character(len=:), allocatable :: folder, title
+    integer :: count
+
+    blocks = 0
+    folder = joined_path(options%folder, deck%base)
+    title = journal_title(deck)
+    if (options%part%count > 0) then
+      call open_folder(folder, session%outputs, error)
+      if (.not. allocated(error)) call open_journal(folder, title, options%resume, &
+        session%journal, blocks, part_name(deck%base, options%part))
+      return
+    end if
+    if (options%join) then
+      associate (variants => variant_count(deck%cards))
+        call find_parts(folder, deck%base, deck%source%path, title, variants, count, error)
+        if (.not. allocated(error)) call read_parts(folder, deck%base, title, variants, count, &
+          group_of_variants, session%journal, error)
+      end associate
+      if (allocated(error)) return
+    end if
+    call open_outputs(folder, deck%model, parameter_columns(deck), options%csv, session%outputs, &
+      error, options%csv_only)
+    if (.not. (allocated(error) .or. options%join)) call open_journal(folder, title, &
+      options%resume, session%journal, blocks)
+  end subroutine open_files
+
+  !> What a run with `--part` has done.
+  pure function success_of_part(deck, part, folder) result(text)
+    type(deck_t), intent(in) :: deck
+    type(part_t), intent(in) :: part
+    character(len=*), intent(in) :: folder !! with the part
+    character(len=:), allocatable :: text
+
+    integer :: first, last
+
+    first = first_variant(part, variant_count(deck%cards))
+    last = last_variant(part, variant_count(deck%cards))
+    text = deck%base//": part "//to_string(part%number)//" of "//to_string(part%count)//", variant"
+    if (last > first) text = text//"s "//to_string(first)//" to"
+    text = text//" "//to_string(last)//", in "//joined_path(folder, part_name(deck%base, part))// &
+      line_feed
+  end function success_of_part
 
   !> What a run has done, with the first reason why its results mean nothing, if there is one.
   pure function success_of(deck, session, command) result(text)
@@ -309,9 +380,9 @@ contains
 
   !> Computes all variants and writes their rows in order. Several are computed at a time if one of
   !! them has too few positions for all threads. Errors: as for `run_whole_variant`.
-  subroutine run_variants(deck, threads, session, error)
+  subroutine run_variants(deck, options, session, error)
     type(deck_t), intent(in), target :: deck
-    integer, intent(in) :: threads
+    type(run_options_t), intent(in) :: options
     type(session_t), intent(inout), target :: session
     type(error_t), allocatable, intent(out) :: error
 
@@ -319,9 +390,11 @@ contains
     integer :: variants, rows, i, together
 
     variants = variant_count(deck%cards)
-    associate (model => deck%model)
+    associate (model => deck%model, threads => options%threads)
       rows = size(model%crank%value)*size(model%speed%value) + motion_instants_of(model)
-      if (variants == 1 .or. rows > many_rows) then
+      ! Parts have variants as a whole.
+      if ((variants == 1 .or. rows > many_rows) .and. options%part%count == 0 .and. &
+        .not. options%join) then
         do i = 1, variants
           call run_whole_variant(deck, i, threads, session, error)
           if (allocated(error) .or. was_interrupted()) return
@@ -336,6 +409,7 @@ contains
       job%deck => deck
       job%outputs => session%outputs
       job%progress = session%progress
+      job%part = options%part
       call run_variant_tasks(job, rows, threads/together, together, session%journal)
       session%findings = job%findings
       session%totals = job%totals
@@ -369,18 +443,27 @@ contains
 
   !> Writes the texts beside the tables, and puts all files in place. Errors: the run was
   !! interrupted, or a file is not complete.
-  subroutine publish(deck, session, error)
+  subroutine publish(deck, options, session, error)
     type(deck_t), intent(in) :: deck
+    type(run_options_t), intent(in) :: options
     type(session_t), intent(inout) :: session
     type(error_t), allocatable, intent(out) :: error
 
     integer :: blocks
+    logical :: done
 
     ! Checked once, before files are put in place: afterwards the run counts as done.
     if (was_interrupted()) then
       call close_journal(session%journal, blocks)
-      call set_error(error, error_of_interruption, &
-        "interrupted; its earlier results are untouched"//resume_hint(blocks), deck%source%path)
+      call set_error(error, error_of_interruption, end_of_run(options)// &
+        "; its earlier results are untouched"//resume_hint(blocks), deck%source%path)
+      return
+    end if
+    if (options%part%count > 0) then
+      call publish_journal(session%journal, done)
+      if (.not. done) call set_error(error, error_of_files, &
+        "the part could not be written completely; is the disk full?", &
+        joined_path(session%outputs%folder, part_name(deck%base, options%part)))
       return
     end if
     call write_texts(session%outputs, echo_text(deck%model), log_text(deck, session), &
@@ -394,6 +477,16 @@ contains
       call remove_journal(session%journal)
     end if
   end subroutine publish
+
+  !> What ended a run before it was done.
+  function end_of_run(options) result(text)
+    type(run_options_t), intent(in) :: options
+    character(len=:), allocatable :: text
+
+    text = "interrupted"
+    if (.not. allocated(options%limit)) return
+    if (was_out_of_time()) text = "stopped at its time limit of "//options%limit
+  end function end_of_run
 
   !> What to do after an interruption; empty without a journal.
   pure function resume_hint(blocks) result(hint)

@@ -1,5 +1,5 @@
 !> The journal of a long run: results of a run that was killed, for one that continues with
-!! `--resume`.
+!! `--resume`. The parts of a study that `--part` computes are complete journals.
 !!
 !! Blocks of results are appended when they are done, each between two equal marks, by which a
 !! block that was cut off is recognised. Results are kept to the last bit: a resumed run writes the
@@ -7,17 +7,23 @@
 !! the program that computed it: a journal of another deck or program is not used.
 module task_journal
   use byte_streams, only: get_integers, put_integers
-  use file_system, only: joined_path, remove_file
+  use file_system, only: file_exists, joined_path, remove_file, rename_file, shorten_file
   use kinds, only: long, wp
+  use sorting, only: ascending_order
+  use text, only: append_string, string_t
   use text_buffer, only: text_buffer_t
   implicit none (type, external)
   private
 
-  public :: journal_t, open_journal, recall_task, keeps_tasks, keep_task, close_journal, &
-    remove_journal, journal_name
+  public :: journal_t, open_journal, new_journal, add_journal_file, recall_task, has_task, &
+    keeps_tasks, keep_task, close_journal, publish_journal, remove_journal, read_title
+  public :: journal_name, begun
 
   !> Name of its file in the output folder.
   character(len=*), parameter :: journal_name = "resume.part"
+
+  !> A journal that is to stay has this after its path until it is complete.
+  character(len=*), parameter :: begun = ".resume"
 
   !> A run shorter than this is not worth a journal [s].
   real(wp), parameter :: least_time = 0.25_wp
@@ -28,10 +34,11 @@ module task_journal
   !> A mark before and after every task: group, number, length in bytes.
   integer, parameter :: mark_bytes = 3*storage_size(1)/8
 
-  !> The results of a task.
+  !> The results of a task; there may be millions of them.
   type :: block_t
     integer :: task(2) = 0          !! group and number
     integer :: length = 0           !! [bytes]
+    integer :: file = 0             !! number of the file that has it; 0: the journal itself
     integer(long) :: place = 0_long !! of its first byte
   end type block_t
 
@@ -43,36 +50,119 @@ module task_journal
     logical, private :: is_open = .false.
     logical, private :: broken = .false.            !! it could not be written; the run continues
                                                     !! without it
-    integer, private :: blocks = 0                  !! of the earlier run
-    type(block_t), allocatable, private :: list(:)  !! (at least blocks)
-    integer, private :: last = 0                    !! block that was recalled last
+    logical, private :: stays = .false.             !! it is a result: tasks of the shortest run are
+                                                    !! kept, too
+    logical, private :: only_read = .false.         !! nothing is added
+    integer, private :: blocks = 0                  !! of earlier runs
+    type(block_t), allocatable, private :: list(:)  !! (at least blocks) in the order of the files,
+                                                    !! from the first question on in that of tasks
+    logical, private :: is_sorted = .false.         !! `list`
+    integer, private :: last = 0                    !! block that was found last
     integer, private :: kept = 0                    !! blocks of this run
     integer(long), private :: next = 0_long         !! place of the next byte
     integer(long), private :: clock = 0_long        !! ticks at the start of the run, or when bytes
                                                     !! were last passed on
+    type(string_t), allocatable, private :: files(:) !! paths of complete journals of other runs
+    integer, private :: open_file = 0               !! number of the one that is open; 0: none
+    integer, private :: reader = -1                 !! its unit
   end type journal_t
 
 contains
 
   !> Opens the journal of an earlier run if there is one to go on from. Otherwise removes it; a new
   !! one is started when the run turns out to be long.
-  subroutine open_journal(folder, title, resume, journal, blocks)
+  subroutine open_journal(folder, title, resume, journal, blocks, name)
     character(len=*), intent(in) :: folder  !! of the outputs
     character(len=*), intent(in) :: title   !! what must be the same for results to be the same
     logical, intent(in) :: resume           !! whether to go on from an earlier run
     type(journal_t), intent(out) :: journal !! ready for tasks
     integer, intent(out) :: blocks          !! complete ones of the earlier run; -1: it was of
                                             !! another deck or program, or is unreadable
+    character(len=*), intent(in), optional :: name !! of a journal that stays when it is complete,
+                                                   !! with all tasks
 
     blocks = 0
-    journal%path = joined_path(folder, journal_name)
     journal%title = title
-    allocate (journal%list(64))
+    allocate (journal%list(64), journal%files(0))
     call system_clock(journal%clock)
+    if (present(name)) then
+      journal%path = joined_path(folder, name)//begun
+      journal%stays = .true.
+      if (resume) call begin_again(joined_path(folder, name), journal)
+    else
+      journal%path = joined_path(folder, journal_name)
+    end if
     if (resume) call read_journal(journal, blocks)
     if (journal%is_open) return
     call remove_file(journal%path)
   end subroutine open_journal
+
+  !> A journal to which nothing is added: its tasks are those of files of other runs.
+  subroutine new_journal(folder, title, journal)
+    character(len=*), intent(in) :: folder  !! of the outputs
+    character(len=*), intent(in) :: title   !! that the files must have
+    type(journal_t), intent(out) :: journal !! without tasks
+
+    journal%path = joined_path(folder, journal_name)
+    journal%title = title
+    journal%only_read = .true.
+    allocate (journal%list(64), journal%files(0))
+  end subroutine new_journal
+
+  !> Goes on from a complete journal, if it is of this run and there is none under way.
+  subroutine begin_again(path, journal)
+    character(len=*), intent(in) :: path !! of the complete journal
+    type(journal_t), intent(in) :: journal
+
+    character(len=:), allocatable :: title
+    logical :: done
+
+    if (file_exists(journal%path) .or. .not. file_exists(path)) return
+    call read_title(path, title)
+    if (is_title(journal, title)) call rename_file(path, journal%path, done)
+  end subroutine begin_again
+
+  !> The title of a journal; empty if there is none.
+  subroutine read_title(path, title)
+    character(len=*), intent(in) :: path               !! of the file
+    character(len=:), allocatable, intent(out) :: title
+
+    integer :: unit, status
+
+    title = ""
+    open (newunit=unit, file=path, status="old", action="read", access="stream", &
+      form="unformatted", iostat=status)
+    if (status /= 0) return
+    call read_title_of(unit, title)
+    close (unit)
+  end subroutine read_title
+
+  !> Likewise, of an open file at its start.
+  subroutine read_title_of(unit, title)
+    integer, intent(in) :: unit
+    character(len=:), allocatable, intent(out) :: title
+
+    integer(long) :: bytes
+    integer :: status, length
+
+    title = ""
+    inquire (unit=unit, size=bytes)
+    read (unit, iostat=status) length
+    if (status /= 0) return
+    if (length < 1 .or. length > bytes) return
+    deallocate (title)
+    allocate (character(len=length) :: title)
+    read (unit, iostat=status) title
+    if (status /= 0) title = ""
+  end subroutine read_title_of
+
+  pure logical function is_title(journal, title)
+    type(journal_t), intent(in) :: journal
+    character(len=*), intent(in) :: title
+
+    ! Blanks at the end of a text make no difference for `==`.
+    is_title = len(title) == len(journal%title) .and. title == journal%title
+  end function is_title
 
   !> Finds the complete blocks of a journal. Bytes after the last of them will be overwritten.
   subroutine read_journal(journal, blocks)
@@ -80,70 +170,93 @@ contains
     integer, intent(out) :: blocks
 
     character(len=:), allocatable :: title
-    character(len=mark_bytes) :: mark, end_mark
-    integer(long) :: place, bytes
-    integer :: status, length
+    integer :: status
 
     blocks = 0
     open (newunit=journal%unit, file=journal%path, status="old", action="readwrite", &
       access="stream", form="unformatted", iostat=status)
     if (status /= 0) return
-    journal%is_open = .true.
-    inquire (unit=journal%unit, size=bytes)
-    read (journal%unit, iostat=status) length
-    if (status == 0 .and. length == len(journal%title)) then
-      allocate (character(len=length) :: title)
-      read (journal%unit, iostat=status) title
-      if (status == 0 .and. title /= journal%title) status = -1
+    call read_title_of(journal%unit, title)
+    if (is_title(journal, title)) then
+      journal%is_open = .true.
+      call read_blocks(journal, journal%unit, 0, journal%next)
+      blocks = journal%blocks
     else
-      status = -1
-    end if
-    if (status /= 0) then
       close (journal%unit)
-      journal%is_open = .false.
       blocks = -1
-      return
     end if
-    inquire (unit=journal%unit, pos=place)
-    do
-      read (journal%unit, pos=place, iostat=status) mark
-      if (status /= 0) exit
-      if (.not. enters(journal, mark, place + mark_bytes, bytes)) exit
-      read (journal%unit, pos=place + mark_bytes + journal%list(journal%blocks + 1)%length, &
-        iostat=status) end_mark
-      if (status /= 0 .or. end_mark /= mark) exit
-      journal%blocks = journal%blocks + 1
-      place = place + 2*mark_bytes + journal%list(journal%blocks)%length
-    end do
-    blocks = journal%blocks
-    journal%next = place
   end subroutine read_journal
 
-  !> Adds the block of a mark to the list, if the file is long enough for it.
-  function enters(journal, mark, place, bytes)
+  !> Takes the blocks of a complete journal of another run, which is only read.
+  subroutine add_journal_file(journal, path, is_whole)
+    type(journal_t), intent(inout) :: journal !! opened
+    character(len=*), intent(in) :: path      !! of the file
+    logical, intent(out) :: is_whole          !! whether it has the title of the journal and ends
+                                              !! with a complete block
+
+    character(len=:), allocatable :: title
+    integer(long) :: next, bytes
+    integer :: unit, status
+
+    is_whole = .false.
+    open (newunit=unit, file=path, status="old", action="read", access="stream", &
+      form="unformatted", iostat=status)
+    if (status /= 0) return
+    call read_title_of(unit, title)
+    if (is_title(journal, title)) then
+      call append_string(journal%files, path)
+      call read_blocks(journal, unit, size(journal%files), next)
+      inquire (unit=unit, size=bytes)
+      is_whole = next == bytes + 1
+    end if
+    close (unit)
+  end subroutine add_journal_file
+
+  !> Adds the complete blocks of a file to the list.
+  subroutine read_blocks(journal, unit, file, next)
     type(journal_t), intent(inout) :: journal
-    character(len=*), intent(in) :: mark !! group, number and length of the block
-    integer(long), intent(in) :: place   !! of the block's first byte
-    integer(long), intent(in) :: bytes   !! length of the file
-    logical :: enters                    !! whether the block was added
+    integer, intent(in) :: unit         !! open, its title read
+    integer, intent(in) :: file         !! its number; 0: the journal itself
+    integer(long), intent(out) :: next  !! place after the last complete block
+
+    character(len=mark_bytes) :: mark, end_mark
+    integer(long) :: bytes, place
+    integer :: numbers(3), at, status
+
+    inquire (unit=unit, size=bytes)
+    inquire (unit=unit, pos=next)
+    journal%is_sorted = .false.
+    do
+      read (unit, pos=next, iostat=status) mark
+      if (status /= 0) exit
+      at = 1
+      call get_integers(mark, at, numbers)
+      if (any(numbers(:2) < 0) .or. numbers(3) <= 0) exit
+      place = next + mark_bytes
+      if (place + numbers(3) + mark_bytes - 1 > bytes) exit
+      read (unit, pos=place + numbers(3), iostat=status) end_mark
+      if (status /= 0 .or. end_mark /= mark) exit
+      call add_block(journal, block_t(numbers(:2), numbers(3), file, place))
+      next = place + numbers(3) + mark_bytes
+    end do
+  end subroutine read_blocks
+
+  pure subroutine add_block(journal, block)
+    type(journal_t), intent(inout) :: journal
+    type(block_t), intent(in) :: block
 
     type(block_t), allocatable :: larger(:)
-    integer :: numbers(3), at
 
-    at = 1
-    call get_integers(mark, at, numbers)
-    enters = all(numbers(:2) >= 0) .and. numbers(3) > 0
-    if (enters) enters = place + numbers(3) + mark_bytes - 1 <= bytes
-    if (.not. enters) return
     if (journal%blocks == size(journal%list)) then
       allocate (larger(2*size(journal%list)))
       larger(:size(journal%list)) = journal%list
       call move_alloc(larger, journal%list)
     end if
-    journal%list(journal%blocks + 1) = block_t(numbers(:2), numbers(3), place)
-  end function enters
+    journal%blocks = journal%blocks + 1
+    journal%list(journal%blocks) = block
+  end subroutine add_block
 
-  !> Returns the bytes of a task that the earlier run did.
+  !> Returns the bytes of a task that an earlier run did.
   subroutine recall_task(journal, task, bytes, found)
     type(journal_t), intent(inout) :: journal           !! opened
     integer, intent(in) :: task(2)                      !! group and number
@@ -151,22 +264,88 @@ contains
                                                         !! is not in the journal
     logical, intent(out) :: found                       !! whether the bytes could be read
 
-    integer :: i, k, status
+    integer :: unit, status
 
-    found = .false.
-    do k = 1, journal%blocks
-      ! Tasks are requested nearly in the order in which they were kept.
-      i = 1 + modulo(journal%last + k - 1, journal%blocks)
-      associate (block => journal%list(i))
-        if (any(block%task /= task)) cycle
-        allocate (character(len=block%length) :: bytes)
-        read (journal%unit, pos=block%place, iostat=status) bytes
-      end associate
-      found = status == 0
-      journal%last = i
-      return
-    end do
+    found = has_task(journal, task)
+    if (.not. found) return
+    associate (block => journal%list(journal%last))
+      call find_unit(journal, block%file, unit)
+      allocate (character(len=block%length) :: bytes)
+      read (unit, pos=block%place, iostat=status) bytes
+    end associate
+    found = status == 0
   end subroutine recall_task
+
+  !> Whether the results of a task are in the journal.
+  function has_task(journal, task) result(has)
+    type(journal_t), intent(inout) :: journal !! opened
+    integer, intent(in) :: task(2)            !! group and number
+    logical :: has
+
+    integer :: low, high, middle
+
+    has = .false.
+    if (journal%blocks == 0) return
+    if (.not. journal%is_sorted) call sort_blocks(journal)
+    ! Tasks are requested nearly in their order.
+    high = min(journal%last + 1, journal%blocks)
+    if (any(journal%list(high)%task /= task)) then
+      low = 1
+      high = journal%blocks
+      do while (low < high)
+        middle = (low + high)/2
+        if (is_before(journal%list(middle)%task, task)) then
+          low = middle + 1
+        else
+          high = middle
+        end if
+      end do
+    end if
+    has = all(journal%list(high)%task == task)
+    if (has) journal%last = high
+  end function has_task
+
+  pure logical function is_before(a, b)
+    integer, intent(in) :: a(2), b(2) !! group and number
+
+    is_before = a(1) < b(1)
+    if (a(1) == b(1)) is_before = a(2) < b(2)
+  end function is_before
+
+  !> Sorts the list by groups and numbers.
+  pure subroutine sort_blocks(journal)
+    type(journal_t), intent(inout) :: journal
+
+    ! More than any number of a task: as a real number, a group and a number are exact.
+    real(wp), parameter :: numbers = 2.0_wp**32
+    integer, allocatable :: order(:)
+
+    associate (list => journal%list(:journal%blocks))
+      order = ascending_order(list%task(1)*numbers + list%task(2))
+      list = list(order)
+    end associate
+    journal%is_sorted = .true.
+    journal%last = 0
+  end subroutine sort_blocks
+
+  !> The unit from which a file is read: one is open at a time, for there may be thousands.
+  subroutine find_unit(journal, file, unit)
+    type(journal_t), intent(inout) :: journal
+    integer, intent(in) :: file  !! its number; 0: the journal itself
+    integer, intent(out) :: unit !! an error of opening shows when it is read
+
+    integer :: status
+
+    unit = journal%unit
+    if (file == 0) return
+    if (journal%open_file /= file) then
+      if (journal%open_file > 0) close (journal%reader)
+      open (newunit=journal%reader, file=journal%files(file)%text, status="old", action="read", &
+        access="stream", form="unformatted", iostat=status)
+      journal%open_file = file
+    end if
+    unit = journal%reader
+  end subroutine find_unit
 
   !> Whether results of tasks are to be kept: only once the run has lasted `least_time`. Begins the
   !! journal then.
@@ -177,10 +356,11 @@ contains
     integer(long) :: now, rate
 
     keeps = .false.
-    if (journal%broken .or. .not. allocated(journal%path)) return
+    if (journal%broken .or. journal%only_read .or. .not. allocated(journal%path)) return
     if (.not. journal%is_open) then
       call system_clock(now, rate)
-      if (real(now - journal%clock, wp) < least_time*real(rate, wp)) return
+      if (.not. journal%stays .and. &
+        real(now - journal%clock, wp) < least_time*real(rate, wp)) return
       call begin_journal(journal)
     end if
     keeps = .not. journal%broken
@@ -232,11 +412,34 @@ contains
     integer :: status
 
     blocks = 0
+    call close_files(journal)
     if (.not. journal%is_open) return
     close (journal%unit, iostat=status)
     journal%is_open = .false.
     if (status == 0 .and. .not. journal%broken) blocks = journal%blocks + journal%kept
   end subroutine close_journal
+
+  !> Puts a journal that stays in place, complete.
+  subroutine publish_journal(journal, done)
+    type(journal_t), intent(inout) :: journal !! with all tasks
+    logical, intent(out) :: done              !! false: not all of it is on the disk, or it cannot
+                                              !! be renamed
+
+    integer(long) :: bytes
+    integer :: status
+
+    call close_files(journal)
+    done = journal%is_open .and. .not. journal%broken
+    if (.not. done) return
+    close (journal%unit, iostat=status)
+    journal%is_open = .false.
+    inquire (file=journal%path, size=bytes)
+    ! Behind the last block there may be one that was cut off.
+    if (bytes >= journal%next) call shorten_file(journal%path, journal%next - 1)
+    inquire (file=journal%path, size=bytes)
+    done = status == 0 .and. bytes == journal%next - 1
+    if (done) call rename_file(journal%path, journal%path(:len(journal%path) - len(begun)), done)
+  end subroutine publish_journal
 
   !> Closes and deletes the journal of a finished run.
   subroutine remove_journal(journal)
@@ -244,9 +447,18 @@ contains
 
     integer :: status
 
+    call close_files(journal)
     if (journal%is_open) close (journal%unit, iostat=status)
     journal%is_open = .false.
     if (allocated(journal%path)) call remove_file(journal%path)
   end subroutine remove_journal
+
+  !> Closes the file of another run that is open.
+  subroutine close_files(journal)
+    type(journal_t), intent(inout) :: journal
+
+    if (journal%open_file > 0) close (journal%reader)
+    journal%open_file = 0
+  end subroutine close_files
 
 end module task_journal

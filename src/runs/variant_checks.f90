@@ -6,18 +6,23 @@
 !! be in one table, and if none is sound.
 module variant_checks
   use available_memory, only: available_memory_t
-  use byte_streams, only: get_integers, put_integers
+  use byte_streams, only: get_integers, get_reals, get_string, put_integers, put_reals, put_string
   use card_bytes, only: get_token, put_token
   use cards, only: card_t
+  use deck_card_bytes, only: get_deck_cards, put_deck_cards
+  use deck_source, only: source_t
   use diagnostic_bytes, only: get_diagnostics, put_diagnostics
   use diagnostics, only: add_error, add_warning, append_warnings, count_warnings, diagnostic_t, &
     diagnostics_t, errors_of, has_errors, has_messages, has_other_errors, join_warnings
   use errors, only: error_of_reach, error_of_writing
+  use interruption, only: was_interrupted
   use jobs, only: job_t
+  use kinds, only: wp
   use models, only: model_t
+  use rank_tasks, only: help_with_tasks
   use task_journal, only: journal_t
   use tasks, only: run_tasks
-  use text, only: to_string
+  use text, only: string_t, to_string
   use text_buffer, only: text_buffer_t
   use tokens, only: token_t
   use variant_readings, only: check_variant, read_variant
@@ -26,6 +31,7 @@ module variant_checks
   private
 
   public :: check_job_t, check_variants, begin_checks, conclude_checks, verdict_t, is_refused
+  public :: help_with_checks, checks_announced
 
   !> What the check of a variant leaves.
   type :: checked_variant_t
@@ -79,24 +85,30 @@ module variant_checks
 
   integer, parameter :: variants_at_a_time = 64
 
+  !> First word of what other ranks are told.
+  character(len=*), parameter :: checks_announced = "checks"
+
 contains
 
   !> Reads and checks all variants of a deck.
   !!
   !! Errors: variants that cannot be in one table, the first of them in full and the others counted;
   !! if no variant is sound, or all have the errors of the first one, these.
-  subroutine check_variants(deck_cards, threads, available, diagnostics, verdict)
+  subroutine check_variants(deck_cards, source, threads, available, diagnostics, verdict)
     type(deck_cards_t), intent(in), target :: deck_cards !! without errors
+    type(source_t), intent(in) :: source                 !! of the deck
     integer, intent(in) :: threads                       !! that will compute the deck
     type(available_memory_t), intent(in) :: available    !! at present
     type(diagnostics_t), intent(inout) :: diagnostics    !! of the deck, to which those of the
                                                          !! variants are added
-    type(verdict_t), intent(out) :: verdict              !! holds if there are no errors
+    type(verdict_t), intent(out) :: verdict              !! holds if there are no errors, and if the
+                                                         !! run was not interrupted
 
     type(check_job_t) :: job
     type(journal_t) :: no_journal
     type(diagnostics_t) :: first
     type(model_t) :: model
+    type(text_buffer_t) :: bytes
     integer :: blocks
 
     ! Of a million variants, a misspelt name would be told minutes later.
@@ -107,11 +119,42 @@ contains
       return
     end if
     call begin_checks(job, deck_cards, threads, available, diagnostics, blocks)
+    call put_string(bytes, checks_announced)
+    call put_deck_cards(bytes, source, deck_cards)
+    call put_integers(bytes, [threads])
+    call put_reals(bytes, [available%bytes])
+    call put_string(bytes, available%clause)
+    job%announcement = bytes%storage(:bytes%length)
     ! One thread: it makes texts, and gfortran 12 keeps the lengths of such results in one place for
     ! all threads.
     call run_tasks(job, 1, blocks, 1, no_journal, -1)
+    ! Of some variants nothing is known then.
+    if (was_interrupted()) return
     call conclude_checks(job, diagnostics, verdict)
   end subroutine check_variants
+
+  !> Helps the leader with the checks that it has announced.
+  subroutine help_with_checks(bytes, at, settings)
+    character(len=*), intent(in) :: bytes     !! that announce them
+    integer, intent(inout) :: at              !! place of the first byte; on return, after the last
+    type(string_t), intent(in) :: settings(:) !! of the command line
+
+    type(check_job_t) :: job
+    type(deck_cards_t), target :: deck_cards
+    type(source_t) :: source
+    type(available_memory_t) :: available
+    type(diagnostics_t) :: none
+    integer :: threads(1), blocks
+    real(wp) :: memory(1)
+
+    call get_deck_cards(bytes, at, settings, source, deck_cards)
+    call get_integers(bytes, at, threads)
+    call get_reals(bytes, at, memory)
+    available%bytes = memory(1)
+    call get_string(bytes, at, available%clause)
+    call begin_checks(job, deck_cards, threads(1), available, none, blocks)
+    call help_with_tasks(job, 1)
+  end subroutine help_with_checks
 
   !> Makes a job of the checks: its tasks are the blocks.
   subroutine begin_checks(job, deck_cards, threads, available, diagnostics, blocks)
@@ -190,6 +233,8 @@ contains
     allocate (self%blocks(number)%variants(limits(1):limits(2)))
     do i = limits(1), limits(2)
       associate (checked => self%blocks(number)%variants(i))
+        ! Another thread may join blocks that other ranks have checked.
+        !$omp critical (one_at_a_time)
         call read_variant(self%deck_cards, i, self%cards, checked%diagnostics, model)
         if (.not. has_errors(checked%diagnostics)) then
           checked%modes = model%modes
@@ -198,6 +243,7 @@ contains
         end if
         call check_variant(model, self%verdict%threads, self%verdict%available, &
           checked%diagnostics)
+        !$omp end critical (one_at_a_time)
       end associate
     end do
   end subroutine check_block

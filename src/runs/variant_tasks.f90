@@ -20,6 +20,7 @@ module variant_tasks
   use report_kinds, only: table_kind_t
   use run_findings, only: add_findings, findings_t
   use run_totals, only: add_totals, run_totals_t
+  use study_parts, only: first_variant, last_variant, part_t
   use stopwatch, only: lap, start_stopwatch, stopwatch_t
   use task_journal, only: journal_t
   use tasks, only: run_tasks
@@ -34,7 +35,8 @@ module variant_tasks
   implicit none (type, external)
   private
 
-  public :: variant_job_t, run_variant_tasks, help_with_variants, variants_announced
+  public :: variant_job_t, begin_variant_job, run_variant_tasks, help_with_variants, &
+    variants_announced, group_of_variants
 
   !> What a thread keeps from one variant to the next.
   type :: thread_store_t
@@ -47,6 +49,7 @@ module variant_tasks
   type, extends(job_t) :: variant_job_t
     type(deck_t), pointer :: deck => null()                 !! with all variants
     type(outputs_t), pointer :: outputs => null()           !! opened
+    type(part_t) :: part                                    !! of the study that is computed
     type(findings_t) :: findings                            !! of all finished variants
     type(run_totals_t) :: totals                            !! of all finished variants
     type(progress_t) :: progress                            !! by number of variants
@@ -73,15 +76,15 @@ module variant_tasks
   integer, parameter :: rows_at_a_time = 8192, most_at_a_time = 256, most_of_all = 16384
 
   !> Group of these tasks in the journal.
-  integer, parameter :: journal_group = 0
+  integer, parameter :: group_of_variants = 0
 
   !> First word of what other ranks are told.
   character(len=*), parameter :: variants_announced = "variants"
 
 contains
 
-  !> Computes all variants and writes their rows in order. Those that cannot be computed have failed
-  !! rows.
+  !> Computes the variants of a part, or all, and writes their rows in order. Those that cannot be
+  !! computed have failed rows.
   subroutine run_variant_tasks(job, rows_of_variant, at_a_time, threads, journal)
     type(variant_job_t), intent(inout) :: job        !! with its deck and outputs
     integer, intent(in) :: rows_of_variant           !! approximate number, of each table
@@ -92,17 +95,19 @@ contains
     type(text_buffer_t) :: bytes
     type(findings_t) :: no_findings
     type(run_totals_t) :: no_totals
-    integer :: room, count
+    integer :: room, count, first, last
 
     count = at_a_time*rank_count()
     room = max(1, min(most_at_a_time, rows_at_a_time/max(1, rows_of_variant)))
     room = max(min(count*room, most_of_all), 2*count)
-    call make_room(job, room, at_a_time, threads)
+    call begin_variant_job(job, room, at_a_time, threads)
     call put_string(bytes, variants_announced)
     call put_deck(bytes, job%deck)
     call put_integers(bytes, [room, threads])
     job%announcement = bytes%storage(:bytes%length)
-    call run_tasks(job, 1, variant_count(job%deck%cards), at_a_time, journal, journal_group, room)
+    first = first_variant(job%part, variant_count(job%deck%cards))
+    last = last_variant(job%part, variant_count(job%deck%cards))
+    call run_tasks(job, first, last, at_a_time, journal, group_of_variants, room)
     if (job%headless == 0) return
     ! The variant that was to lead has failed, and the next one that has not came without what the
     ! heads of tables are made of. It happens once in a run, if ever, before anything is written.
@@ -112,7 +117,7 @@ contains
     job%findings = no_findings
     job%totals = no_totals
     call forget_waiting(job%outputs)
-    call run_tasks(job, 1, variant_count(job%deck%cards), at_a_time, journal, journal_group, room)
+    call run_tasks(job, first, last, at_a_time, journal, group_of_variants, room)
   end subroutine run_variant_tasks
 
   !> Helps the leader with the variants that it has announced.
@@ -129,19 +134,22 @@ contains
     call get_deck(bytes, at, settings, deck)
     call get_integers(bytes, at, numbers)
     job%deck => deck
-    call make_room(job, numbers(1), at_a_time, numbers(2))
+    call begin_variant_job(job, numbers(1), at_a_time, numbers(2))
     call help_with_tasks(job, at_a_time)
   end subroutine help_with_variants
 
-  subroutine make_room(job, room, at_a_time, threads)
-    type(variant_job_t), intent(inout) :: job
-    integer, intent(in) :: room, at_a_time, threads
+  !> Makes a job ready for its tasks.
+  subroutine begin_variant_job(job, room, at_a_time, threads)
+    type(variant_job_t), intent(inout) :: job !! with its deck
+    integer, intent(in) :: room               !! variants under way or waiting for their turn
+    integer, intent(in) :: at_a_time          !! variants that are computed at a time
+    integer, intent(in) :: threads            !! that compute one together
 
     job%threads = threads
     job%kinds = tables_of(job%deck%model)
     ! One thread more may serve other ranks.
     allocate (job%stores(at_a_time + 1), job%rows(0:room - 1))
-  end subroutine make_room
+  end subroutine begin_variant_job
 
   !> Place of a variant in the ring.
   pure integer function place_of(job, number)
@@ -236,10 +244,13 @@ contains
     type(variant_rows_t) :: rows
     type(stopwatch_t) :: watch
     real(wp) :: writing
-    integer :: mine
+    integer :: mine, first, variants
+    logical :: writes
 
     mine = place_of(self, number)
-    if (.not. (self%outputs%have_heads .or. self%rows(mine)%has_failed .or. &
+    ! A part has no tables: its rows are in the journal.
+    writes = self%part%count == 0
+    if (writes .and. .not. (self%outputs%have_heads .or. self%rows(mine)%has_failed .or. &
       allocated(self%rows(mine)%log))) then
       if (self%headless == 0) then
         ! Not here: other threads wait.
@@ -250,7 +261,7 @@ contains
       call take_head(self%head, self%rows(mine))
     end if
     call start_stopwatch(watch)
-    call write_found_rows(self%outputs, self%deck%model%title, self%rows(mine))
+    if (writes) call write_found_rows(self%outputs, self%deck%model%title, self%rows(mine))
     call lap(watch, writing)
     self%rows(mine)%totals%writing = self%rows(mine)%totals%writing + writing
     call add_findings(self%findings, self%rows(mine)%findings)
@@ -261,7 +272,10 @@ contains
       self%method = self%rows(mine)%method
     end if
     self%rows(mine) = rows
-    call show_progress(self%progress, number, variant_count(self%deck%cards))
+    variants = variant_count(self%deck%cards)
+    first = first_variant(self%part, variants)
+    call show_progress(self%progress, number - first + 1, &
+      last_variant(self%part, variants) - first + 1)
   end subroutine finish_variant
 
   !> Takes what the heads of tables and the log are made of from the variant computed again.

@@ -23,6 +23,14 @@ stopped() {
 
 check "Ctrl-C leaves the earlier results" eval 'stopped INT "$out" && same "$out" "$scratch/before"'
 check "SIGTERM likewise" eval 'stopped TERM "$out" && same "$out" "$scratch/before"'
+limited() {
+  run 130 --out "$out" --format csv --time-limit 2s "$deck" || return 1
+  says "beam.deck: stopped at its time limit of 2s; its earlier results are untouched; --resume continues from what it has computed" ||
+    return 1
+  [ -s "$out/beam/resume.part" ] || { echo "no resume.part"; return 1; }
+  rm "$out/beam/resume.part"
+}
+check "a time limit likewise" eval 'limited && same "$out" "$scratch/before"'
 check "a new folder holds nothing else" eval 'stopped INT "$scratch/new" && rmdir "$scratch/new/beam" "$scratch/new"'
 
 # Nothing is kept of a run without frequencies: motion is found in no time, and only its tables take long.
@@ -37,6 +45,15 @@ long_motion() {
   absent "$scratch/new"
 }
 check "no new folder is left by a short run" long_motion
+
+# The deck before is done, the one behind it is not begun.
+several_decks() {
+  motion_deck >"$scratch/short.deck"
+  run 130 --out "$scratch/several" --time-limit 2s "$scratch/short.deck" "$deck" "$scratch/motion.deck" || return 1
+  says "beam.deck: stopped at its time limit of 2s" && [ -s "$scratch/several/short/kinematics.dat" ] || return 1
+  [ "$(ls "$scratch/several/beam")" = resume.part ] && absent "$scratch/several/motion"
+}
+check "of several decks those done stay done" several_decks
 
 # Next to a dead point a turn needs so many samples that the harmonics of many speeds take minutes.
 cat >"$scratch/balance.deck" <<'END_OF_DECK'

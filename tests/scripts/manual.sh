@@ -17,7 +17,7 @@ has_options() {
   page || return 1
   [ "$(options | wc -l)" -gt 10 ] || { echo "--help has no options"; return 1; }
   for option in $(options); do
-    grep -q -e "^.fB$(echo "$option" | sed 's/-/\\\\-/g')\\( [A-Z=]*\\)\\{0,1\\}.fR\$" "$scratch/flexmech.1" || { echo "$option is missing"; return 1; }
+    grep -q -e "^.fB$(echo "$option" | sed 's/-/\\\\-/g')\\( [A-Z=/]*\\)\\{0,1\\}.fR\$" "$scratch/flexmech.1" || { echo "$option is missing"; return 1; }
   done
 }
 

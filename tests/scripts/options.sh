@@ -8,7 +8,7 @@ motion_deck >"$deck"
 
 help() {
   run 0 --help && silent || return 1
-  for option in --check --out --set --threads --format --resume --quiet --stats --json --version --help --help-cards --man --completion; do
+  for option in --check --out --set --threads --format --resume --time-limit --part --join --quiet --stats --json --version --help --help-cards --man --completion; do
     grep -q -e "^ *$option" "$scratch/stdout" || { echo "$option is not explained"; return 1; }
   done
 }
@@ -49,6 +49,17 @@ threads_refused() {
   for number in 0 -1 two 1e3 99999999999; do
     run 2 --threads "$number" --out "$out" "$deck" && says "--threads needs a number" && absent "$out" || return 1
   done
+}
+
+time_refused() {
+  for word in 90 0s 3.5h h 3h50 50m3h 3:50 -1h 1w; do
+    run 2 --time-limit "$word" --out "$scratch/limited" "$deck" &&
+      says "option --time-limit needs a time such as 3h50m, 90m, 45s or 3:50:00, not '$word'" && absent "$scratch/limited" || return 1
+  done
+}
+
+time_enough() {
+  run 0 --time-limit 2h --out "$scratch/timed" "$deck" && silent && run 0 --time-limit=0:30:00 --check "$deck" && silent
 }
 
 out_twice() {
@@ -213,6 +224,8 @@ check "--stats: shapes" stats_shapes
 check "--stats: work counted by hand" stats_counted
 check "--stats: poses with changed lengths" stats_near_dead_point
 check "--stats: poses of studies" stats_studies
+check "a time limit that is none" time_refused
+check "a time limit that is far" time_enough
 check "the same bytes for any number of threads" threads
 check "the line after a run" success
 check "the line after a run with frequencies" success_of_frequencies

@@ -13,7 +13,11 @@ module settings
   implicit none (type, external)
   private
 
-  public :: setting_t, settings_t, read_settings, look_up_setting, warn_of_unused_settings
+  public :: setting_t, settings_t, read_settings, look_up_setting, warn_of_unused_settings, &
+    options_path
+
+  !> In place of a path: the lines of `--set` among those of the source.
+  character(len=*), parameter :: options_path = "<command line>"
 
   !> A name and where its value comes from.
   type :: setting_t
@@ -113,7 +117,7 @@ contains
     do i = 1, size(options)
       lines = lines//option//options(i)%text//achar(10)
     end do
-    call append_source(source, source_from_text("<command line>", lines), 0)
+    call append_source(source, source_from_text(options_path, lines), 0)
     do i = 1, size(options)
       sign = index(options(i)%text, "=")
       associate (name => options(i)%text(:sign - 1))

@@ -57,15 +57,20 @@ contains
 
   !> Warnings, those of meaningless results first, then failed rows, for standard error. Each line
   !! begins with the deck's path.
-  pure function findings_messages(findings, path) result(text)
+  pure function findings_messages(findings, path, has_log) result(text)
     type(findings_t), intent(in) :: findings !! of all variants
     character(len=*), intent(in) :: path     !! of the deck
+    logical, intent(in), optional :: has_log !! whether there is a `run.log`; absent: yes
     character(len=:), allocatable :: text
 
+    character(len=:), allocatable :: place
     type(string_t), allocatable :: severe(:), others(:)
     integer :: i
 
     text = ""
+    place = "; run.log lists them"
+    if (present(has_log)) place = merge(place, repeat(" ", len(place)), has_log)
+    place = trim(place)
     severe = warnings_of_grade(findings, grade_meaningless)
     others = warnings_of_grade(findings, grade_doubt)
     do i = 1, size(severe)
@@ -76,18 +81,19 @@ contains
     end do
     if (size(others) > most_shown) then
       text = text//path//": "//to_string(size(others) - most_shown)// &
-        " more warnings; run.log lists them"//line_feed
+        " more warnings"//place//line_feed
     end if
     do i = 1, min(findings%kept, most_shown)
       text = text//path//": error: "//failure_text(findings%failed(i))//line_feed
     end do
     if (findings%failures > most_shown) then
       text = text//path//": error: "//to_string(findings%failures - most_shown)// &
-        " more failures; run.log lists "
-      if (untold_failures(findings) > 0) then
-        text = text//"the first "//to_string(findings%kept)//", the tables mark all"//line_feed
+        " more failures"
+      if (untold_failures(findings) > 0 .and. len(place) > 0) then
+        text = text//"; run.log lists the first "//to_string(findings%kept)// &
+          ", the tables mark all"//line_feed
       else
-        text = text//"them"//line_feed
+        text = text//place//line_feed
       end if
     end if
   end function findings_messages
