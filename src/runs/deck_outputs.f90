@@ -168,8 +168,8 @@ contains
     call end_rows(outputs, before)
   end subroutine write_variant
 
-  !> Begins the rows of a variant in a table. Those of the first one that is computed follow the head
-  !! and the variants that waited for it.
+  !> Begins the rows of a variant in a table. Those of the first one that is computed follow the
+  !! head and the variants that waited for it.
   subroutine begin_rows(outputs, table, title, notes, columns, varied)
     type(outputs_t), intent(in) :: outputs
     type(table_t), intent(inout) :: table !! one of these outputs

@@ -118,8 +118,8 @@ contains
   !> Computes the reports of a sound deck and writes its files; or a part of its variants, or the
   !! files from all parts.
   !!
-  !! Errors: the run was interrupted, no variant could be computed, or files could not be written. The output folder is then as it was before, except for the journal of a long
-  !! run.
+  !! Errors: the run was interrupted, no variant could be computed, or files could not be written.
+  !! The output folder is then as it was before, except for the journal of a long run.
   subroutine run_deck(deck, options, result, error)
     type(deck_t), intent(in) :: deck                 !! without errors
     type(run_options_t), intent(in) :: options       !! of the command line

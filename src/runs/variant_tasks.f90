@@ -61,9 +61,9 @@ module variant_tasks
     type(table_kind_t), allocatable, private :: kinds(:)    !! (tables) of the deck
     type(variant_rows_t), allocatable, private :: rows(:)   !! (0: ring − 1) not yet written
     type(thread_store_t), allocatable, private :: stores(:) !! (threads)
-    integer, private :: headless = 0                        !! number of the variant that leads since
-                                                            !! others failed; 0: none
-    type(variant_rows_t), private :: head                   !! what it brings for the heads of tables
+    integer, private :: headless = 0                        !! number of the variant that leads
+                                                            !! since others failed; 0: none
+    type(variant_rows_t), private :: head                   !! what it brings for heads of tables
   contains
     procedure :: run => run_variant
     procedure :: pack => pack_variant
