@@ -11,6 +11,7 @@ module variant_rows
   use result_warnings, only: find_warnings
   use run_findings, only: findings_t, get_findings, put_findings
   use run_totals, only: get_totals, put_totals, run_totals_t, totals_of
+  use table_columns, only: header_columns
   use table_rows, only: get_rows, put_rows, rows_t
   use tables, only: column_t
   use text, only: string_t
@@ -67,7 +68,7 @@ contains
     do i = 1, size(tables)
       call plan_table(tables(i), variant, plans(i))
       call table_notes(plans(i)%name, variant, rows%tables(i)%notes)
-      if (leads) rows%tables(i)%columns = plans(i)%layout%columns
+      if (leads) call header_columns(plans(i)%layout, rows%tables(i)%columns)
     end do
     if (leads) then
       rows%log = log_of_variant(variant)
