@@ -1,5 +1,5 @@
-!> What a job is: tasks that are independent of each other, such as the blocks of a long sweep or the
-!! variants of a deck, whose results are put together in the order of the tasks.
+!> What a job is: tasks that are independent of each other, such as the blocks of a long sweep or
+!! the variants of a deck, whose results are put together in the order of the tasks.
 module jobs
   use errors, only: error_t
   use text_buffer, only: text_buffer_t

@@ -1,5 +1,5 @@
-!> Tasks that other ranks do: the leader hands them out, each thread of the others asks for more when
-!! it has sent its results.
+!> Tasks that other ranks do: the leader hands them out, each thread of the others asks for more
+!! when it has sent its results.
 !!
 !! Tasks are handed out a few at a time, so many that they take some milliseconds, and before the
 !! last ones are done: nobody waits for the leader.
@@ -131,6 +131,8 @@ contains
     helpers%time = helpers%time + time(1)
     do number = head(2), head(3)
       call get_integers(results, at, length)
+      ! Not in the critical section, for a task may enter it.
+      if (length(1) == 0) call job%run(number)
       !$omp critical (one_at_a_time)
       if (.not. allocated(job%error)) call take_result(pool, job, journal, number, &
         results(at:at + length(1) - 1))

@@ -87,20 +87,18 @@ contains
     if (bytes%length > 0) call keep_task(journal, [pool%group, number], bytes)
   end subroutine keep_done_task
 
-  !> Takes the results of a task that another rank has done, and adds them to the journal.
+  !> Takes the results of a task that another rank has done, and adds them to the journal. If it
+  !! could not be done there, it has been done again here: why is not in the bytes.
   subroutine take_result(pool, job, journal, number, results)
     type(task_pool_t), intent(inout) :: pool
     class(job_t), intent(inout) :: job        !! that gets the results
     type(journal_t), intent(inout) :: journal !! of the run
     integer, intent(in) :: number             !! of the task
-    character(len=*), intent(in) :: results   !! packed; empty: it could not be done
+    character(len=*), intent(in) :: results   !! packed; empty: the job has them
 
     type(text_buffer_t) :: bytes
 
-    if (len(results) == 0) then
-      ! Why is not in the bytes. It is the end of the job as a rule.
-      call job%run(number)
-    else
+    if (len(results) > 0) then
       call job%unpack(number, results)
       if (pool%group >= 0) then
         if (keeps_tasks(journal)) then
