@@ -17,8 +17,8 @@ module deck_outputs
   implicit none (type, external)
   private
 
-  public :: outputs_t, open_outputs, open_folder, tables_of, write_variant, write_found_rows, &
-    write_texts, publish_outputs, discard_outputs
+  public :: outputs_t, open_outputs, open_folder, refuse_folder, tables_of, write_variant, &
+    write_found_rows, write_texts, publish_outputs, discard_outputs
 
   !> The files of one output folder.
   type :: outputs_t
@@ -123,8 +123,8 @@ contains
 
   !> Errors: there is a folder with the path of a file.
   subroutine refuse_folder(path, error)
-    character(len=*), intent(in) :: path
-    type(error_t), allocatable, intent(inout) :: error
+    character(len=*), intent(in) :: path               !! of the file
+    type(error_t), allocatable, intent(inout) :: error !! as it was if there is none
 
     if (is_directory(path)) call set_error(error, error_of_files, &
       "this is a folder, and a file is to be written there", path)

@@ -5,7 +5,7 @@ module deck_runs
   use cards, only: card_t
   use deck_bytes, only: get_deck, put_deck
   use deck_outputs, only: discard_outputs, open_folder, open_outputs, outputs_t, publish_outputs, &
-    write_texts, write_variant
+    refuse_folder, write_texts, write_variant
   use deck_readings, only: deck_t, read_variant
   use deck_summary, only: summary_text
   use diagnostics, only: diagnostics_t, warnings_of, diagnostic_t
@@ -30,8 +30,8 @@ module deck_runs
   use study_requests, only: motion_instants_of
   use success_text, only: text_of_success
   use tables, only: column_t, real_column
-  use task_journal, only: close_journal, journal_t, open_journal, publish_journal, &
-    remove_journal
+  use task_journal, only: begun, close_journal, journal_t, keeps_tasks, open_journal, &
+    publish_journal, remove_journal
   use text, only: plural, string_t, to_string
   use text_buffer, only: text_buffer_t
   use variant_log, only: log_of_variant
@@ -170,7 +170,7 @@ contains
     integer, intent(out) :: blocks !! of an earlier run; -1: it was of another deck or program
     type(error_t), allocatable, intent(out) :: error
 
-    character(len=:), allocatable :: folder, title
+    character(len=:), allocatable :: folder, title, name
     integer :: count
 
     blocks = 0
@@ -178,8 +178,12 @@ contains
     title = journal_title(deck)
     if (options%part%count > 0) then
       call open_folder(folder, session%outputs, error)
-      if (.not. allocated(error)) call open_journal(folder, title, options%resume, &
-        session%journal, blocks, part_name(deck%base, options%part))
+      name = part_name(deck%base, options%part)
+      if (.not. allocated(error)) call refuse_folder(joined_path(folder, name), error)
+      if (allocated(error)) return
+      call open_journal(folder, title, options%resume, session%journal, blocks, name)
+      if (.not. keeps_tasks(session%journal)) call set_error(error, error_of_files, &
+        "this file cannot be written", joined_path(folder, name)//begun)
       return
     end if
     if (options%join) then

@@ -316,6 +316,24 @@ check "other values of --set" other_values
 
 check "and the parts are still joined" joins "$scratch/out" plain
 
+in_the_way() {
+  mkdir -p "$scratch/way/my/my.part1of2.resume"
+  run 2 --out "$scratch/way" --part 1/2 "$deck" && says "my.part1of2.resume: error: this file cannot be written" || return 1
+  mv "$scratch/way/my/my.part1of2.resume" "$scratch/way/my/my.part1of2"
+  run 2 --out "$scratch/way" --part 1/2 "$deck" && says "my.part1of2: error: this is a folder, and a file is to be written there" || return 1
+  rmdir "$scratch/way/my/my.part1of2" "$scratch/way/my"
+}
+check "a folder in the place of a part" in_the_way
+
+# No time for a single variant.
+no_time() {
+  run 130 --out "$scratch/soon" --part 1/1 --time-limit 1s "$scratch/endless/my.deck" &&
+    says "my.deck: stopped at its time limit of 1s; its earlier results are untouched" && absent "$scratch/soon/my/my.part1of1"
+}
+mkdir "$scratch/endless"
+study "185 to 300 step 5" | sed 's/^CRANK .*/CRANK 0 to 360 step 0.001/' >"$scratch/endless/my.deck"
+check "a part without time" no_time
+
 # The disk is a small tmpfs.
 full_disk() {
   run 2 --out "$scratch/disk" --part 1/1 "$deck" || return 1
