@@ -73,7 +73,8 @@ program main
   allocate (decks(size(command%decks)), outcomes(size(command%decks)))
   refused = .false.
   do i = 1, size(decks)
-    call read_deck(command%decks(i)%text, command%threads, decks(i), command%settings)
+    call read_deck(command%decks(i)%text, command%threads, decks(i), command%settings, &
+      command%part)
     if (.not. command%quiet) call say(decks(i)%warnings)
     call say(decks(i)%errors)
     if (len(decks(i)%errors) > 0) outcomes(i)%exit_status = 2

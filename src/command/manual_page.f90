@@ -51,7 +51,8 @@ contains
     call append_entry(page, "1", &
       "Some position or mode could not be computed; the rest is written.")
     call append_entry(page, "2", "A bad deck or command line; nothing is written.")
-    call append_entry(page, "130", "Interrupted, or stopped at its time limit; earlier results stay.")
+    call append_entry(page, "130", &
+      "Interrupted, or stopped at its time limit; earlier results stay.")
     call append_section(page, "EXAMPLES")
     call append_entry(page, program_name//" --check my.deck", "Reads and checks a deck.")
     call append_entry(page, program_name//" --threads 4 --set L=120mm my.deck", &

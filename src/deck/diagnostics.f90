@@ -13,7 +13,8 @@ module diagnostics
 
   public :: diagnostics_t, add_error, add_warning, has_errors, has_other_errors, error_count, &
     render_errors, render_warnings, warning_texts, join_warnings, append_warnings, count_warnings
-  public :: diagnostic_t, errors_of, warnings_of, untold_errors, untold_warnings
+  public :: diagnostic_t, message_list_t, errors_of, warnings_of, untold_errors, untold_warnings
+  public :: append_message, has_messages
 
   !> One message. Its place has no line if something is missing from the deck.
   type :: diagnostic_t
@@ -29,13 +30,14 @@ module diagnostics
   type :: message_list_t
     integer :: total = 0                       !! including those beyond `most_kept`
     integer :: kept = 0                        !! at most `most_kept`
-    type(diagnostic_t), allocatable :: list(:) !! (most_kept) in the order in which they were added
+    type(diagnostic_t), allocatable :: list(:) !! (at least kept) in the order in which they were
+                                               !! added
   end type message_list_t
 
   !> All messages about one deck.
   type :: diagnostics_t
-    type(message_list_t), private :: errors
-    type(message_list_t), private :: warnings
+    type(message_list_t) :: errors   !! for their bytes only: elsewhere by the procedures below
+    type(message_list_t) :: warnings !! likewise
   end type diagnostics_t
 
   !> Most messages kept of each severity: a file that is no deck at all has an error in every line.
@@ -66,7 +68,7 @@ contains
     if (present(second_place)) new%second_place = second_place
     if (present(note)) new%note = note
     if (present(kind)) new%kind = kind
-    call add_diagnostic(diagnostics%errors, new)
+    call append_message(diagnostics%errors, new)
   end subroutine add_error
 
   !> Adds a warning at a word of the deck, optionally with a second word that explains it. Warnings
@@ -96,21 +98,29 @@ contains
     if (present(kind)) new%warning%kind = kind
     if (present(grade)) new%warning%grade = grade
     if (present(amount)) new%warning%amount = amount
-    call add_diagnostic(diagnostics%warnings, new)
+    call append_message(diagnostics%warnings, new)
   end subroutine add_warning
 
-  pure subroutine add_diagnostic(messages, new)
-    type(message_list_t), intent(inout) :: messages
-    type(diagnostic_t), intent(in) :: new
+  !> Appends a message; beyond `most_kept` it is only counted.
+  pure subroutine append_message(messages, new)
+    type(message_list_t), intent(inout) :: messages !! of one severity
+    type(diagnostic_t), intent(in) :: new           !! with its place
+
+    type(diagnostic_t), allocatable :: larger(:)
 
     ! An unknown `$name` has been reported already.
     if (new%place%set_line < 0) return
     messages%total = messages%total + 1
-    if (.not. allocated(messages%list)) allocate (messages%list(most_kept))
     if (messages%kept == most_kept) return
+    if (.not. allocated(messages%list)) allocate (messages%list(4))
+    if (messages%kept == size(messages%list)) then
+      allocate (larger(min(most_kept, 2*messages%kept)))
+      larger(:messages%kept) = messages%list
+      call move_alloc(larger, messages%list)
+    end if
     messages%kept = messages%kept + 1
     messages%list(messages%kept) = new
-  end subroutine add_diagnostic
+  end subroutine append_message
 
   !> Adds the warnings of a variant to those of the variants before: one for every word, kind and
   !! grade.
@@ -131,8 +141,9 @@ contains
       new%warning%variant = variant
       known = same_warning(diagnostics%warnings, new)
       if (known == 0) then
-        call add_diagnostic(diagnostics%warnings, new)
-        is_new(diagnostics%warnings%kept) = .false.
+        known = diagnostics%warnings%kept + 1
+        call append_message(diagnostics%warnings, new)
+        if (known <= most_kept) is_new(known) = .false.
       else
         associate (warning => diagnostics%warnings%list(known))
           call join_warning(warning%warning, new%warning, is_new(known))
@@ -152,7 +163,7 @@ contains
     integer :: i
 
     do i = 1, more%warnings%kept
-      call add_diagnostic(diagnostics%warnings, more%warnings%list(i))
+      call append_message(diagnostics%warnings, more%warnings%list(i))
     end do
   end subroutine append_warnings
 
@@ -194,6 +205,14 @@ contains
 
     has = diagnostics%errors%total > 0
   end function has_errors
+
+  !> Whether there are errors or warnings.
+  pure function has_messages(diagnostics) result(has)
+    type(diagnostics_t), intent(in) :: diagnostics !! of the deck
+    logical :: has
+
+    has = diagnostics%errors%total > 0 .or. diagnostics%warnings%total > 0
+  end function has_messages
 
   !> Whether there are errors of other kinds than one.
   pure function has_other_errors(diagnostics, kind) result(has)

@@ -11,6 +11,7 @@ module model_reader
   use drive_cards, only: branch_t, kind_of_drive, moves_along, read_branch, read_drive
   use drive_checks, only: check_drives
   use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
+  use errors, only: error_of_writing
   use four_bar_branches, only: find_four_bar_branch
   use friction_checks, only: check_frictions, read_frictions
   use joint_cards, only: read_guide, read_pin, read_slider, read_weld
@@ -192,7 +193,8 @@ contains
           hint = "; the cards are: "//joined(known)//", END"
           listed = .true.
         end if
-        call add_error(diagnostics, keyword, "unknown card '"//keyword%text//"'"//hint)
+        call add_error(diagnostics, keyword, "unknown card '"//keyword%text//"'"//hint, &
+          kind=error_of_writing)
       end associate
     end do
   end subroutine check_keywords

@@ -1,14 +1,16 @@
 !> A deck as bytes and back: what other ranks need to compute any variant of it.
 module deck_bytes
-  use byte_streams, only: get_string, put_string
+  use byte_streams, only: get_integers, get_reals, get_string, put_integers, put_reals, put_string
   use card_bytes, only: get_cards, put_cards
   use cards, only: card_t
-  use deck_readings, only: deck_t, read_variant
+  use deck_readings, only: deck_t
   use deck_source, only: source_from_text
   use diagnostics, only: diagnostics_t
+  use kinds, only: wp
   use report_table, only: reports
   use text, only: string_t
   use text_buffer, only: text_buffer_t
+  use variant_readings, only: read_variant
   use variants, only: read_deck_cards
   implicit none (type, external)
   private
@@ -25,9 +27,16 @@ contains
     call put_string(buffer, deck%source%path)
     call put_string(buffer, deck%source%text)
     call put_cards(buffer, deck%cards%written)
+    associate (verdict => deck%verdict)
+      call put_integers(buffer, [verdict%leading, verdict%threads, verdict%refused_count])
+      if (verdict%refused_count > 0) call put_integers(buffer, &
+        verdict%refused(:verdict%refused_count))
+      call put_reals(buffer, [verdict%available%bytes])
+      call put_string(buffer, verdict%available%clause)
+    end associate
   end subroutine put_deck
 
-  !> Reads what `put_deck` wrote. The deck has its cards and the model of its first variant.
+  !> Reads what `put_deck` wrote. The deck has its cards and the model of the variant that leads.
   subroutine get_deck(bytes, at, settings, deck)
     character(len=*), intent(in) :: bytes      !! of `put_deck`, among others
     integer, intent(inout) :: at               !! place of the first byte; on return, after the last
@@ -37,13 +46,26 @@ contains
     character(len=:), allocatable :: path, text
     type(card_t), allocatable :: cards(:)
     type(diagnostics_t) :: none
+    integer :: numbers(3)
+    real(wp) :: memory(1)
 
     call get_string(bytes, at, path)
     call get_string(bytes, at, text)
     call get_cards(bytes, at, cards)
     deck%source = source_from_text(path, text)
     call read_deck_cards(cards, settings, deck%source, reports, none, deck%cards)
-    call read_variant(deck%cards, 1, cards, none, deck%model)
+    associate (verdict => deck%verdict)
+      call get_integers(bytes, at, numbers)
+      verdict%leading = numbers(1)
+      verdict%threads = numbers(2)
+      verdict%refused_count = numbers(3)
+      allocate (verdict%refused(numbers(3)))
+      if (numbers(3) > 0) call get_integers(bytes, at, verdict%refused)
+      call get_reals(bytes, at, memory)
+      verdict%available%bytes = memory(1)
+      call get_string(bytes, at, verdict%available%clause)
+      call read_variant(deck%cards, verdict%leading, cards, none, deck%model)
+    end associate
   end subroutine get_deck
 
 end module deck_bytes

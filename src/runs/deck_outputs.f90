@@ -1,24 +1,27 @@
 !> The output files of a run: opened together, put in place together.
 module deck_outputs
+  use byte_streams, only: get_reals, get_string, put_reals, put_string
   use errors, only: error_of_files, error_t, set_error
   use file_system, only: is_directory, joined_path, make_directories, remove_empty_directory
+  use kinds, only: long, wp
   use models, only: model_t, report_number
   use output_files, only: append_output, discard_output, finish_output, open_output, &
     output_file_t, publish_output, remove_output
   use report_kinds, only: table_kind_t
   use report_rows, only: find_rows
   use report_table, only: plan_table, reports, table_in_units, table_notes, table_plan_t
-  use table_rows, only: rows_t
+  use table_rows, only: add_failed_row, rows_t
   use tables, only: begin_variant, column_t, discard_table, finish_table, open_table, &
     publish_table, table_t, write_header, write_notes, write_rows
   use text, only: string_t
+  use text_buffer, only: text_buffer_t
   use variant_results, only: variant_results_t
   use variant_rows, only: variant_rows_t
   implicit none (type, external)
   private
 
   public :: outputs_t, open_outputs, open_folder, refuse_folder, tables_of, write_variant, &
-    write_found_rows, write_texts, publish_outputs, discard_outputs
+    write_found_rows, write_texts, publish_outputs, discard_outputs, forget_waiting
 
   !> The files of one output folder.
   type :: outputs_t
@@ -31,6 +34,11 @@ module deck_outputs
                                                           !! table of reports
     type(table_t), allocatable :: tables(:)               !! in the order of `kinds`
     type(column_t), allocatable, private :: parameters(:) !! columns of the VARY parameters
+    logical :: have_heads = .false.                       !! the tables; the first variant that is
+                                                          !! computed brings them
+    integer :: computed = 0                               !! variants with a result
+    type(text_buffer_t), private :: waiting               !! values and reasons of variants that
+                                                          !! failed before the tables had heads
     type(output_file_t), private :: echo, log, summary
   end type outputs_t
 
@@ -138,25 +146,90 @@ contains
 
     type(table_plan_t) :: plan
     type(string_t), allocatable :: notes(:)
+    integer(long) :: before(2)
     integer :: i, first
 
+    before = rows_written(outputs)
     do i = 1, size(outputs%kinds)
       call plan_table(outputs%kinds(i), variant, plan)
       call table_notes(plan%name, variant, notes)
       associate (table => outputs%tables(i))
-        call begin_variant(table, outputs%parameters, variant%model%varied)
-        if (allocated(table%columns)) then
-          call write_notes(table, notes)
-        else
-          call write_header(table, variant%model%title, notes, plan%layout%columns)
-        end if
+        call begin_rows(outputs, table, variant%model%title, notes, plan%layout%columns, &
+          variant%model%varied)
         do first = 1, plan%items, items_at_a_time
           call write_items(table, plan, variant, first, &
             min(first + items_at_a_time - 1, plan%items), threads)
         end do
       end associate
     end do
+    call end_rows(outputs, before)
   end subroutine write_variant
+
+  !> Begins the rows of a variant in a table. Those of the first one that is computed follow the head
+  !! and the variants that waited for it.
+  subroutine begin_rows(outputs, table, title, notes, columns, varied)
+    type(outputs_t), intent(in) :: outputs
+    type(table_t), intent(inout) :: table !! one of these outputs
+    character(len=*), intent(in) :: title
+    type(string_t), intent(in) :: notes(:)
+    type(column_t), allocatable, intent(in) :: columns(:) !! allocated for the head
+    real(wp), intent(in) :: varied(:)
+
+    type(rows_t), allocatable :: failed
+    character(len=:), allocatable :: reason
+    real(wp) :: values(size(varied)), no_place(0)
+    integer :: at
+
+    call begin_variant(table, outputs%parameters, varied)
+    if (outputs%have_heads) then
+      call write_notes(table, notes)
+      return
+    end if
+    call write_header(table, title, notes, columns)
+    at = 1
+    do while (at <= outputs%waiting%length)
+      call get_reals(outputs%waiting%storage, at, values)
+      call get_string(outputs%waiting%storage, at, reason)
+      allocate (failed)
+      call add_failed_row(failed, no_place, reason)
+      call begin_variant(table, outputs%parameters, values)
+      call write_rows(table, failed)
+      deallocate (failed)
+      ! All notes are in the head.
+      call write_notes(table, notes)
+    end do
+    call begin_variant(table, outputs%parameters, varied)
+  end subroutine begin_rows
+
+  !> Counts a variant that has left its rows.
+  pure subroutine end_rows(outputs, before)
+    type(outputs_t), intent(inout) :: outputs
+    integer(long), intent(in) :: before(2) !! of `rows_written`
+
+    integer(long) :: now(2)
+
+    now = rows_written(outputs)
+    if (now(1) > before(1) .or. now(2) == before(2)) outputs%computed = outputs%computed + 1
+    outputs%have_heads = .true.
+    call forget_waiting(outputs)
+  end subroutine end_rows
+
+  !> Numbers of rows and of failed ones, in all tables.
+  pure function rows_written(outputs) result(numbers)
+    type(outputs_t), intent(in) :: outputs
+    integer(long) :: numbers(2)
+
+    numbers = [sum(outputs%tables%rows), sum(outputs%tables%failed_rows)]
+  end function rows_written
+
+  !> Forgets variants that wait for the heads of the tables.
+  pure subroutine forget_waiting(outputs)
+    type(outputs_t), intent(inout) :: outputs !! opened
+
+    type(text_buffer_t) :: none
+
+    outputs%waiting = none
+  end subroutine forget_waiting
 
   subroutine write_items(table, plan, variant, first, last, threads)
     type(table_t), intent(inout) :: table
@@ -170,25 +243,29 @@ contains
     call write_rows(table, rows)
   end subroutine write_items
 
-  !> Writes the rows, already found, of a variant. The first one brings the columns of the tables.
+  !> Writes the rows, already found, of a variant. The first one that is computed brings the columns
+  !! of the tables; those that failed before wait for it.
   subroutine write_found_rows(outputs, title, found)
     type(outputs_t), intent(inout) :: outputs !! opened
     character(len=*), intent(in) :: title     !! of the deck; may be empty
     type(variant_rows_t), intent(in) :: found !! rows of all tables
 
+    integer(long) :: before(2)
     integer :: i
 
+    if (found%has_failed .and. .not. outputs%have_heads) then
+      call put_reals(outputs%waiting, found%varied)
+      call put_string(outputs%waiting, found%findings%failed(1)%error%text)
+      return
+    end if
+    before = rows_written(outputs)
     do i = 1, size(outputs%tables)
       associate (table => outputs%tables(i), part => found%tables(i))
-        call begin_variant(table, outputs%parameters, found%varied)
-        if (allocated(table%columns)) then
-          call write_notes(table, part%notes)
-        else
-          call write_header(table, title, part%notes, part%columns)
-        end if
+        call begin_rows(outputs, table, title, part%notes, part%columns, found%varied)
         call write_rows(table, part%rows)
       end associate
     end do
+    call end_rows(outputs, before)
   end subroutine write_found_rows
 
   !> Writes the files beside the tables.
@@ -257,10 +334,11 @@ contains
 
   !> Removes the temporary files, and the folders that this run made. Files of an earlier run stay.
   subroutine discard_outputs(outputs)
-    type(outputs_t), intent(inout) :: outputs !! opened, as far as was possible
+    type(outputs_t), intent(inout) :: outputs !! opened, as far as was possible, or new
 
     integer :: i
 
+    if (.not. allocated(outputs%folder)) return
     do i = 1, size(outputs%tables)
       call discard_table(outputs%tables(i))
     end do

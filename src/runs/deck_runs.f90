@@ -5,14 +5,14 @@ module deck_runs
   use cards, only: card_t
   use deck_bytes, only: get_deck, put_deck
   use deck_outputs, only: discard_outputs, open_folder, open_outputs, outputs_t, publish_outputs, &
-    refuse_folder, write_texts, write_variant
-  use deck_readings, only: deck_t, read_variant
+    refuse_folder, write_found_rows, write_texts, write_variant
+  use deck_readings, only: deck_t
   use deck_summary, only: summary_text
   use diagnostics, only: diagnostics_t, warnings_of, diagnostic_t
   use echo, only: echo_text
-  use errors, only: error_of_files, error_of_interruption, error_t, set_error
+  use errors, only: error_of_files, error_of_interruption, error_of_numerics, error_t, set_error
   use file_system, only: file_name, joined_path
-  use findings_texts, only: findings_log, findings_messages
+  use findings_texts, only: failure_text, findings_log, findings_messages
   use interruption, only: was_interrupted, was_out_of_time
   use kinds, only: wp
   use link_store, only: link_store_t
@@ -35,10 +35,12 @@ module deck_runs
   use text, only: plural, string_t, to_string
   use text_buffer, only: text_buffer_t
   use variant_log, only: log_of_variant
-  use variant_results, only: variant_results_t
+  use variant_checks, only: is_refused
+  use variant_readings, only: read_variant, refusal_of_variant
+  use variant_rows, only: fail_variant, variant_rows_t
   use variant_runs, only: begin_variant_run, compute_variant, help_with_sweep, variant_run_t
   use variant_tasks, only: group_of_variants, run_variant_tasks, variant_job_t
-  use variants, only: parameter_names, variant_count, variant_text
+  use variants, only: parameter_names, variant_count, variant_text, variant_values
   use warnings, only: grade_meaningless
   implicit none (type, external)
   private
@@ -76,8 +78,9 @@ module deck_runs
     type(progress_t) :: progress
     type(run_totals_t) :: totals         !! of all variants so far
     type(findings_t) :: findings         !! of all variants so far
-    character(len=:), allocatable :: log !! of the first variant
-    integer :: method = 0                !! by which the first variant's frequencies were found
+    character(len=:), allocatable :: log !! of the first variant that was computed,
+    integer :: logged = 0                !! its number,
+    integer :: method = 0                !! by which its frequencies were found
   end type session_t
 
   !> A variant with more positions than this keeps all threads busy. One with more rows is computed
@@ -91,7 +94,7 @@ module deck_runs
 
   !> Form of the bytes in a journal: another number wherever they mean something else, since the
   !! version of the program may stay the same.
-  character(len=*), parameter :: journal_form = "journal 8"
+  character(len=*), parameter :: journal_form = "journal 9"
 
 contains
 
@@ -115,9 +118,8 @@ contains
   !> Computes the reports of a sound deck and writes its files; or a part of its variants, or the
   !! files from all parts.
   !!
-  !! Errors: the run was interrupted, the own modes of a link could not be found, or files could
-  !! not be written. The output folder is then as it was before, except for the journal of a long
-  !! run.
+  !! Errors: the run was interrupted, no variant could be computed, or files could not be written.
+  !! The output folder is then as it was before, except for the journal of a long run.
   subroutine run_deck(deck, options, result, error)
     type(deck_t), intent(in) :: deck                 !! without errors
     type(run_options_t), intent(in) :: options       !! of the command line
@@ -127,16 +129,24 @@ contains
     type(session_t) :: session
     type(run_times_t) :: times
     type(stopwatch_t) :: watch
-    integer :: blocks
+    integer :: blocks, variants
 
+    variants = variant_count(deck%cards)
     call open_files(deck, options, session, blocks, error)
     if (.not. allocated(error)) then
-      call start_progress(session%progress, deck%base, trim(merge("variants ", "positions", &
-        variant_count(deck%cards) > 1)), .not. options%quiet)
+      call start_progress(session%progress, deck%base, &
+        trim(merge("variants ", "positions", variants > 1)), .not. options%quiet)
       call start_stopwatch(watch)
       call run_variants(deck, options, session, error)
       call lap(watch, times%variants)
       call end_progress(session%progress)
+      ! Of a part nobody knows what the others come to.
+      if (variants > 1 .and. options%part%count == 0 .and. session%outputs%computed == 0 .and. &
+        .not. (allocated(error) .or. was_interrupted())) then
+        call set_error(error, error_of_numerics, "none of the "//to_string(variants)// &
+          " variants could be computed; "//failure_text(session%findings%failed(1)), &
+          deck%source%path)
+      end if
       ! It would fail again: nothing to resume from.
       if (allocated(error)) call remove_journal(session%journal)
     end if
@@ -297,7 +307,7 @@ contains
   end function parameter_columns
 
   !> Computes a variant on all threads and writes its rows; of the first one it also keeps the log.
-  !! Errors: the own modes of a link could not be found.
+  !! Errors: the own modes of a link could not be found, in the only variant of a deck.
   subroutine run_whole_variant(deck, number, threads, session, error)
     type(deck_t), intent(in) :: deck
     integer, intent(in) :: number !! of the variant, from 1
@@ -317,7 +327,13 @@ contains
     real(wp) :: computing, writing
 
     call start_stopwatch(watch)
-    if (number == 1) then
+    if (is_refused(deck%verdict, number)) then
+      call refusal_of_variant(deck%cards, number, deck%verdict%threads, deck%verdict%available, &
+        cards, error)
+      call write_failed_variant(deck, number, session, error)
+      return
+    end if
+    if (number == deck%verdict%leading) then
       call begin_variant_run(run, deck%model)
     else
       call read_variant(deck%cards, number, cards, none, model)
@@ -331,7 +347,11 @@ contains
     call compute_variant(run, threads, session%journal, number, store, error)
     if (variant_count(deck%cards) == 1) session%progress = run%progress
     call lap(watch, computing)
-    if (allocated(error) .or. was_interrupted()) return
+    if (was_interrupted()) return
+    if (allocated(error)) then
+      if (variant_count(deck%cards) > 1) call write_failed_variant(deck, number, session, error)
+      return
+    end if
     call write_variant(session%outputs, run%results, threads)
     call lap(watch, writing)
     totals = totals_of(run%results)
@@ -341,13 +361,31 @@ contains
     call find_failures(run%results, findings)
     call find_warnings(run%results, findings)
     call add_findings(session%findings, findings)
-    if (number > 1) return
+    if (session%logged > 0) return
     session%log = log_of_variant(run%results)
+    session%logged = number
     if (totals%has_frequencies) session%method = run%results%found%sweep%request%method
   end subroutine run_whole_variant
 
+  !> Writes the failed rows of a variant that could not be computed.
+  subroutine write_failed_variant(deck, number, session, error)
+    type(deck_t), intent(in) :: deck
+    integer, intent(in) :: number !! of the variant
+    type(session_t), intent(inout) :: session
+    type(error_t), allocatable, intent(inout) :: error !! the reason; not allocated on return
+
+    type(variant_rows_t) :: rows
+
+    call fail_variant(size(session%outputs%kinds), variant_text(deck%cards, number), &
+      variant_values(deck%cards, number), error, rows)
+    call write_found_rows(session%outputs, deck%model%title, rows)
+    call add_totals(session%totals, rows%totals)
+    call add_findings(session%findings, rows%findings)
+    deallocate (error)
+  end subroutine write_failed_variant
+
   !> Computes all variants and writes their rows in order. Several are computed at a time if one of
-  !! them has too few positions for all threads. Errors: the own modes of a link could not be found.
+  !! them has too few positions for all threads. Errors: as for `run_whole_variant`.
   subroutine run_variants(deck, options, session, error)
     type(deck_t), intent(in), target :: deck
     type(run_options_t), intent(in) :: options
@@ -378,11 +416,12 @@ contains
       job%outputs => session%outputs
       job%progress = session%progress
       job%part = options%part
-      call run_variant_tasks(job, rows, threads/together, together, session%journal, error)
+      call run_variant_tasks(job, rows, threads/together, together, session%journal)
       session%findings = job%findings
       session%totals = job%totals
       session%progress = job%progress
       session%method = job%method
+      session%logged = job%logged
       if (allocated(job%log)) session%log = job%log
     end associate
   end subroutine run_variants
@@ -473,8 +512,9 @@ contains
 
     text = session%log
     if (session%totals%variants > 1) then
-      text = "first of "//to_string(session%totals%variants)//" variants, "// &
-        variant_text(deck%cards, 1)//":"//line_feed//text//"all variants, the last one with "// &
+      text = trim(merge("first of          ", "first computed of ", session%logged == 1))//" "// &
+        to_string(session%totals%variants)//" variants, "//variant_text(deck%cards, &
+        session%logged)//":"//line_feed//text//"all variants, the last one with "// &
         variant_text(deck%cards, session%totals%variants)//":"//line_feed
     end if
     if (session%totals%has_frequencies) text = text//accuracy_summary(session%method, &

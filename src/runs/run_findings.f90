@@ -1,17 +1,17 @@
 !> What a run reports besides its tables: failed rows and warnings about results.
 module run_findings
-  use byte_streams, only: get_error, get_integers, get_logicals, get_reals, get_string, put_error, &
-    put_integers, put_logicals, put_reals, put_string
+  use byte_streams, only: get_error, get_integers, get_reals, get_string, put_error, &
+    put_integers, put_reals, put_string
   use errors, only: error_t
-  use kinds, only: wp
+  use kinds, only: long, wp
   use text, only: append_string, string_t, to_string
   use text_buffer, only: text_buffer_t
-  use warnings, only: counted_text, join_warning, warning_t
+  use warnings, only: counted_text, get_warning, join_warning, put_warning, warning_t
   implicit none (type, external)
   private
 
   public :: findings_t, failure_t, add_failure, add_warning_of_run, add_findings, put_findings, &
-    get_findings, warnings_of_grade, place_of_failure
+    get_findings, warnings_of_grade, place_of_failure, untold_failures, most_failures
   public :: at_position, at_frequencies, in_motion, of_variant, in_response, in_stability, &
     in_intervals, in_transient, in_campbell, at_instant, at_forces
 
@@ -40,35 +40,50 @@ module run_findings
                                              !! cards
   end type failure_t
 
+  !> Most failures that are kept with their places and reasons: those of a study may be as many as
+  !! its rows, which are marked in the tables.
+  integer, parameter :: most_failures = 1000
+
   !> Failed rows and warnings of a variant, or of several.
   type :: findings_t
     integer :: variants = 0                     !! that were joined; 0: of one alone
-    integer :: failures = 0                     !! positions without a pose, positions × speeds
+    integer(long) :: failures = 0_long          !! positions without a pose, positions × speeds
                                                 !! without modes, motions that ended too soon,
-                                                !! variants without any pose
-    type(failure_t), allocatable :: failed(:)   !! (at least failures)
+                                                !! variants that failed as a whole
+    integer :: kept = 0                         !! the first of them, at most `most_failures`
+    type(failure_t), allocatable :: failed(:)   !! (at least kept)
     integer :: warning_count = 0
     type(warning_t), allocatable :: warnings(:) !! (at least warning_count)
   end type findings_t
 
 contains
 
-  !> Appends a failure.
+  !> Appends a failure; beyond `most_failures` it is only counted.
   pure subroutine add_failure(findings, failure)
     type(findings_t), intent(inout) :: findings !! to which it is appended
     type(failure_t), intent(in) :: failure      !! with its error
 
     type(failure_t), allocatable :: larger(:)
 
+    findings%failures = findings%failures + 1
+    if (findings%kept == most_failures) return
     if (.not. allocated(findings%failed)) allocate (findings%failed(16))
-    if (findings%failures == size(findings%failed)) then
+    if (findings%kept == size(findings%failed)) then
       allocate (larger(2*size(findings%failed)))
-      larger(:findings%failures) = findings%failed
+      larger(:findings%kept) = findings%failed
       call move_alloc(larger, findings%failed)
     end if
-    findings%failures = findings%failures + 1
-    findings%failed(findings%failures) = failure
+    findings%kept = findings%kept + 1
+    findings%failed(findings%kept) = failure
   end subroutine add_failure
+
+  !> Number of failures beyond those kept.
+  pure function untold_failures(findings) result(count)
+    type(findings_t), intent(in) :: findings !! of a variant, or of all
+    integer(long) :: count
+
+    count = findings%failures - findings%kept
+  end function untold_failures
 
   !> Appends a warning.
   pure subroutine add_warning_of_run(findings, warning)
@@ -106,9 +121,10 @@ contains
         call join_warning(findings%warnings(known), more%warnings(i), is_new)
       end if
     end do
-    do i = 1, more%failures
+    do i = 1, more%kept
       call add_failure(findings, more%failed(i))
     end do
+    findings%failures = findings%failures + untold_failures(more)
     findings%variants = findings%variants + 1
   end subroutine add_findings
 
@@ -157,8 +173,9 @@ contains
 
     integer :: i
 
-    call put_integers(buffer, [findings%failures, findings%warning_count])
-    do i = 1, findings%failures
+    ! Of one variant, which has fewer failures than a whole number can say.
+    call put_integers(buffer, [int(findings%failures), findings%kept, findings%warning_count])
+    do i = 1, findings%kept
       associate (failure => findings%failed(i))
         call put_integers(buffer, [failure%stage, size(failure%varied)])
         call put_reals(buffer, [failure%crank, failure%speed, failure%time, failure%varied])
@@ -173,13 +190,7 @@ contains
       end associate
     end do
     do i = 1, findings%warning_count
-      associate (warning => findings%warnings(i))
-        call put_integers(buffer, [warning%kind, warning%grade, warning%variants])
-        call put_logicals(buffer, [warning%is_alike, warning%has_worst])
-        call put_reals(buffer, [warning%amount])
-        call put_string(buffer, warning%text)
-        call put_string(buffer, warning%variant)
-      end associate
+      call put_warning(buffer, findings%warnings(i))
     end do
   end subroutine put_findings
 
@@ -191,42 +202,21 @@ contains
 
     type(failure_t), allocatable :: failure
     type(warning_t) :: warning
-    integer :: counts(2), i
+    integer :: counts(3), i
 
     call get_integers(bytes, at, counts)
-    do i = 1, counts(1)
+    do i = 1, counts(2)
       allocate (failure)
       call get_failure(bytes, at, failure)
       call add_failure(findings, failure)
       deallocate (failure)
     end do
-    do i = 1, counts(2)
+    findings%failures = counts(1)
+    do i = 1, counts(3)
       call get_warning(bytes, at, warning)
       call add_warning_of_run(findings, warning)
     end do
   end subroutine get_findings
-
-  pure subroutine get_warning(bytes, at, warning)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at
-    type(warning_t), intent(out) :: warning
-
-    real(wp) :: amount(1)
-    integer :: codes(3)
-    logical :: marks(2)
-
-    call get_integers(bytes, at, codes)
-    call get_logicals(bytes, at, marks)
-    call get_reals(bytes, at, amount)
-    warning%kind = codes(1)
-    warning%grade = codes(2)
-    warning%variants = codes(3)
-    warning%is_alike = marks(1)
-    warning%has_worst = marks(2)
-    warning%amount = amount(1)
-    call get_string(bytes, at, warning%text)
-    call get_string(bytes, at, warning%variant)
-  end subroutine get_warning
 
   pure subroutine get_failure(bytes, at, failure)
     character(len=*), intent(in) :: bytes

@@ -25,11 +25,11 @@ module run_totals
 
   !> Sums over variants.
   type :: run_totals_t
-    integer :: variants = 0                !! computed
+    integer :: variants = 0                !! computed, or failed as a whole
     integer(long) :: rows = 0_long         !! positions as the variants list them
     integer(long) :: positions = 0_long    !! different ones
     integer(long) :: kinematic_solutions = 0_long !! poses sought, at positions and by studies
-    integer :: speeds = 0                  !! of the first variant
+    integer :: speeds = 0                  !! of the first variant that was computed
     integer(long) :: motion_steps = 0_long !! of forward dynamics
     logical :: has_frequencies = .false.   !! whether any variant has
     type(ledger_t) :: counts               !! of the work on frequencies
@@ -163,7 +163,8 @@ contains
     type(run_totals_t), intent(inout) :: totals !! of the variants before
     type(run_totals_t), intent(in) :: more      !! of the variants that follow
 
-    if (totals%variants == 0) totals%speeds = more%speeds
+    ! Variants that failed as a whole have none.
+    if (totals%speeds == 0) totals%speeds = more%speeds
     totals%variants = totals%variants + more%variants
     totals%rows = totals%rows + more%rows
     totals%positions = totals%positions + more%positions

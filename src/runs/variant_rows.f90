@@ -3,15 +3,17 @@
 module variant_rows
   use byte_streams, only: get_integers, get_logicals, get_reals, get_string, put_integers, &
     put_logicals, put_reals, put_string
+  use errors, only: error_t
   use kinds, only: wp
   use report_kinds, only: table_kind_t
   use report_rows, only: find_rows
   use report_table, only: plan_table, table_notes, table_plan_t
   use result_failures, only: find_failures
   use result_warnings, only: find_warnings
-  use run_findings, only: findings_t, get_findings, put_findings
+  use run_findings, only: add_failure, failure_t, findings_t, get_findings, of_variant, &
+    put_findings
   use run_totals, only: get_totals, put_totals, run_totals_t, totals_of
-  use table_rows, only: get_rows, put_rows, rows_t
+  use table_rows, only: add_failed_row, get_rows, put_rows, rows_t
   use tables, only: column_t
   use text, only: string_t
   use text_buffer, only: text_buffer_t
@@ -20,7 +22,8 @@ module variant_rows
   implicit none (type, external)
   private
 
-  public :: variant_rows_t, table_part_t, find_variant_rows, put_variant_rows, get_variant_rows
+  public :: variant_rows_t, table_part_t, find_variant_rows, fail_variant, put_variant_rows, &
+    get_variant_rows
 
   !> The part of a table that belongs to a variant.
   type :: table_part_t
@@ -37,6 +40,7 @@ module variant_rows
     type(table_part_t), allocatable :: tables(:) !! in the order of the deck's tables
     type(findings_t) :: findings
     type(run_totals_t) :: totals
+    logical :: has_failed = .false.              !! as a whole: there are failed rows only
     character(len=:), allocatable :: log         !! what `run.log` says of it, and
     integer :: method = 0                        !! how its frequencies were found; of the variant
                                                  !! that leads
@@ -79,6 +83,36 @@ contains
     end do
   end subroutine find_variant_rows
 
+  !> A variant that cannot be computed: a failed row in every table, and a failure of the run.
+  subroutine fail_variant(tables, variant, varied, error, rows)
+    integer, intent(in) :: tables             !! number of tables of the deck
+    character(len=*), intent(in) :: variant   !! `L=-5mm`
+    real(wp), intent(in) :: varied(:)         !! (parameters) values, in the units of their VARY
+                                              !! cards
+    type(error_t), intent(in) :: error        !! the reason
+    type(variant_rows_t), intent(out) :: rows !! with all that is to be written
+
+    type(failure_t) :: failure
+    real(wp) :: no_place(0)
+    integer :: i
+
+    rows%has_failed = .true.
+    rows%varied = varied
+    rows%totals%variants = 1
+    allocate (rows%tables(tables))
+    do i = 1, tables
+      allocate (rows%tables(i)%notes(0))
+      call add_failed_row(rows%tables(i)%rows, no_place, error%text)
+    end do
+    failure%stage = of_variant
+    failure%error = error
+    failure%variant = variant
+    failure%varied = varied
+    failure%crank_words = ""
+    failure%speed_words = ""
+    call add_failure(rows%findings, failure)
+  end subroutine fail_variant
+
   !> Appends rows, findings and totals to a buffer as bytes.
   pure subroutine put_variant_rows(buffer, rows)
     type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_variant_rows`
@@ -100,7 +134,7 @@ contains
     end do
     call put_findings(buffer, rows%findings)
     call put_totals(buffer, rows%totals)
-    call put_logicals(buffer, [allocated(rows%log)])
+    call put_logicals(buffer, [rows%has_failed, allocated(rows%log)])
     if (.not. allocated(rows%log)) return
     call put_string(buffer, rows%log)
     call put_integers(buffer, [rows%method])
@@ -129,7 +163,7 @@ contains
     type(variant_rows_t), intent(out) :: rows !! of a variant
 
     integer :: counts(2), notes(1), method(1), i, k
-    logical :: leads(1)
+    logical :: marks(2)
 
     call get_integers(bytes, at, counts)
     allocate (rows%varied(counts(1)), rows%tables(counts(2)))
@@ -147,8 +181,9 @@ contains
     end do
     call get_findings(bytes, at, rows%findings)
     call get_totals(bytes, at, rows%totals)
-    call get_logicals(bytes, at, leads)
-    if (.not. leads(1)) return
+    call get_logicals(bytes, at, marks)
+    rows%has_failed = marks(1)
+    if (.not. marks(2)) return
     call get_string(bytes, at, rows%log)
     call get_integers(bytes, at, method)
     rows%method = method(1)

@@ -4,10 +4,10 @@ module variant_tasks
   use byte_streams, only: get_integers, put_integers, put_string
   use cards, only: card_t
   use deck_bytes, only: get_deck, put_deck
-  use deck_outputs, only: outputs_t, tables_of, write_found_rows
-  use deck_readings, only: deck_t, read_variant
+  use deck_outputs, only: forget_waiting, outputs_t, tables_of, write_found_rows
+  use deck_readings, only: deck_t
   use diagnostics, only: diagnostics_t
-  use errors, only: error_t, outcome_t
+  use errors, only: error_of_numerics, error_t, set_error
   use interruption, only: was_interrupted
   use jobs, only: job_t
   use kinds, only: wp
@@ -26,9 +26,12 @@ module variant_tasks
   use tasks, only: run_tasks
   use text, only: string_t
   use text_buffer, only: text_buffer_t
-  use variant_rows, only: find_variant_rows, get_variant_rows, put_variant_rows, variant_rows_t
+  use variant_checks, only: is_refused
+  use variant_readings, only: read_variant, refusal_of_variant
+  use variant_rows, only: fail_variant, find_variant_rows, get_variant_rows, put_variant_rows, &
+    variant_rows_t
   use variant_runs, only: begin_variant_run, compute_variant, variant_run_t
-  use variants, only: variant_count
+  use variants, only: variant_count, variant_text, variant_values
   implicit none (type, external)
   private
 
@@ -50,13 +53,17 @@ module variant_tasks
     type(findings_t) :: findings                            !! of all finished variants
     type(run_totals_t) :: totals                            !! of all finished variants
     type(progress_t) :: progress                            !! by number of variants
-    character(len=:), allocatable :: log                    !! of the first variant
+    character(len=:), allocatable :: log                    !! of the first variant that was
+                                                            !! computed,
+    integer :: logged = 0                                   !! its number,
     integer :: method = 0                                   !! by which its frequencies were found
     integer, private :: threads = 1                         !! that compute a variant together
     type(table_kind_t), allocatable, private :: kinds(:)    !! (tables) of the deck
     type(variant_rows_t), allocatable, private :: rows(:)   !! (0: ring − 1) not yet written
-    type(outcome_t), allocatable, private :: outcomes(:)    !! (0: ring − 1)
     type(thread_store_t), allocatable, private :: stores(:) !! (threads)
+    integer, private :: headless = 0                        !! number of the variant that leads since
+                                                            !! others failed; 0: none
+    type(variant_rows_t), private :: head                   !! what it brings for the heads of tables
   contains
     procedure :: run => run_variant
     procedure :: pack => pack_variant
@@ -76,18 +83,19 @@ module variant_tasks
 
 contains
 
-  !> Computes the variants of a part, or all, and writes their rows in order. Errors: the own modes
-  !! of a link could not be found.
-  subroutine run_variant_tasks(job, rows_of_variant, at_a_time, threads, journal, error)
+  !> Computes the variants of a part, or all, and writes their rows in order. Those that cannot be
+  !! computed have failed rows.
+  subroutine run_variant_tasks(job, rows_of_variant, at_a_time, threads, journal)
     type(variant_job_t), intent(inout) :: job        !! with its deck and outputs
     integer, intent(in) :: rows_of_variant           !! approximate number, of each table
     integer, intent(in) :: at_a_time                 !! variants that a rank computes at a time
     integer, intent(in) :: threads                   !! that compute one together
     type(journal_t), intent(inout) :: journal        !! of the run
-    type(error_t), allocatable, intent(out) :: error !! of the first variant that fails
 
     type(text_buffer_t) :: bytes
-    integer :: room, count, variants
+    type(findings_t) :: no_findings
+    type(run_totals_t) :: no_totals
+    integer :: room, count, variants, first, last
 
     count = at_a_time*rank_count()
     room = max(1, min(most_at_a_time, rows_at_a_time/max(1, rows_of_variant)))
@@ -98,9 +106,19 @@ contains
     call put_integers(bytes, [room, threads])
     job%announcement = bytes%storage(:bytes%length)
     variants = variant_count(job%deck%cards)
-    call run_tasks(job, first_variant(job%part, variants), last_variant(job%part, variants), &
-      at_a_time, journal, group_of_variants, room)
-    if (allocated(job%error)) error = job%error
+    first = first_variant(job%part, variants)
+    last = last_variant(job%part, variants)
+    call run_tasks(job, first, last, at_a_time, journal, group_of_variants, room)
+    if (job%headless == 0) return
+    ! The variant that was to lead has failed, and the next one that has not came without what the
+    ! heads of tables are made of. It happens once in a run, if ever, before anything is written.
+    call compute(job, job%headless, .true., job%stores(1), job%head)
+    if (was_interrupted()) return
+    deallocate (job%error)
+    job%findings = no_findings
+    job%totals = no_totals
+    call forget_waiting(job%outputs)
+    call run_tasks(job, first, last, at_a_time, journal, group_of_variants, room)
   end subroutine run_variant_tasks
 
   !> Helps the leader with the variants that it has announced.
@@ -128,7 +146,7 @@ contains
     job%threads = threads
     job%kinds = tables_of(job%deck%model)
     ! One thread more may serve other ranks.
-    allocate (job%stores(at_a_time + 1), job%rows(0:room - 1), job%outcomes(0:room - 1))
+    allocate (job%stores(at_a_time + 1), job%rows(0:room - 1))
   end subroutine make_room
 
   !> Place of a variant in the ring.
@@ -145,48 +163,62 @@ contains
     integer, intent(in) :: number !! of the variant
 
     associate (store => self%stores(omp_get_thread_num() + 1), mine => place_of(self, number))
-      call compute(self, number, store, self%rows(mine), self%outcomes(mine)%error)
+      call compute(self, number, number == self%deck%verdict%leading, store, self%rows(mine))
     end associate
   end subroutine run_variant
 
-  subroutine compute(job, number, store, rows, error)
+  subroutine compute(job, number, leads, store, rows)
     class(variant_job_t), intent(in) :: job
     integer, intent(in) :: number                  !! of the variant
+    logical, intent(in) :: leads                   !! whether heads of tables and log are to be its
     type(thread_store_t), intent(inout) :: store
     type(variant_rows_t), intent(inout) :: rows
-    type(error_t), allocatable, intent(out) :: error
 
     type(variant_run_t) :: run
     type(model_t) :: model
     type(diagnostics_t) :: none
     type(journal_t) :: no_journal
     type(stopwatch_t) :: watch
+    type(error_t), allocatable :: error
     real(wp) :: reading, computing, writing
 
     ! One thread at a time makes texts: gfortran 12 keeps the lengths of such results in one place
     ! for all threads.
     !$omp critical (one_at_a_time)
     call start_stopwatch(watch)
-    call read_variant(job%deck%cards, number, store%cards, none, model)
-    call begin_variant_run(run, model)
+    associate (cards => job%deck%cards, verdict => job%deck%verdict)
+      if (is_refused(verdict, number)) then
+        call refusal_of_variant(cards, number, verdict%threads, verdict%available, store%cards, &
+          error)
+        call fail_variant(size(job%kinds), variant_text(cards, number), &
+          variant_values(cards, number), error, rows)
+      else
+        call read_variant(cards, number, store%cards, none, model)
+        call begin_variant_run(run, model)
+      end if
+    end associate
     call lap(watch, reading)
     !$omp end critical (one_at_a_time)
+    if (allocated(error)) return
     call compute_variant(run, job%threads, no_journal, -1, store%links, error)
     call lap(watch, computing)
-    if (allocated(error) .or. was_interrupted()) return
-    call find_variant_rows(job%kinds, run%results, job%threads, number == 1, rows)
+    if (was_interrupted()) return
+    if (allocated(error)) then
+      call fail_variant(size(job%kinds), model%variant, model%varied, error, rows)
+      return
+    end if
+    call find_variant_rows(job%kinds, run%results, job%threads, leads, rows)
     call lap(watch, writing)
     rows%totals%computing = reading + computing
     rows%totals%writing = writing
   end subroutine compute
 
-  !> Appends the rows of a variant as bytes; nothing if it could not be computed.
+  !> Appends the rows of a variant as bytes.
   subroutine pack_variant(self, number, bytes)
     class(variant_job_t), intent(in) :: self
     integer, intent(in) :: number !! of the variant
     type(text_buffer_t), intent(inout) :: bytes
 
-    if (allocated(self%outcomes(place_of(self, number))%error)) return
     call put_variant_rows(bytes, self%rows(place_of(self, number)))
   end subroutine pack_variant
 
@@ -213,18 +245,27 @@ contains
     integer :: mine, first, variants
 
     mine = place_of(self, number)
-    if (allocated(self%outcomes(mine)%error)) then
-      self%error = self%outcomes(mine)%error
-      return
+    if (.not. (self%part%count > 0 .or. self%outputs%have_heads .or. self%rows(mine)%has_failed &
+      .or. allocated(self%rows(mine)%log))) then
+      if (self%headless == 0) then
+        ! Not here: other threads wait.
+        self%headless = number
+        call set_error(self%error, error_of_numerics, "the tables have no heads")
+        return
+      end if
+      call take_head(self%head, self%rows(mine))
     end if
     call start_stopwatch(watch)
-    call write_found_rows(self%outputs, self%deck%model%title, self%rows(mine))
+    ! A part is in the journal.
+    if (self%part%count == 0) call write_found_rows(self%outputs, self%deck%model%title, &
+      self%rows(mine))
     call lap(watch, writing)
     self%rows(mine)%totals%writing = self%rows(mine)%totals%writing + writing
     call add_findings(self%findings, self%rows(mine)%findings)
     call add_totals(self%totals, self%rows(mine)%totals)
     if (allocated(self%rows(mine)%log)) then
       self%log = self%rows(mine)%log
+      self%logged = number
       self%method = self%rows(mine)%method
     end if
     self%rows(mine) = rows
@@ -233,5 +274,19 @@ contains
     call show_progress(self%progress, number - first + 1, &
       last_variant(self%part, variants) - first + 1)
   end subroutine finish_variant
+
+  !> Takes what the heads of tables and the log are made of from the variant computed again.
+  subroutine take_head(head, rows)
+    type(variant_rows_t), intent(in) :: head
+    type(variant_rows_t), intent(inout) :: rows !! of the same variant
+
+    integer :: i
+
+    do i = 1, size(rows%tables)
+      rows%tables(i)%columns = head%tables(i)%columns
+    end do
+    rows%log = head%log
+    rows%method = head%method
+  end subroutine take_head
 
 end module variant_tasks

@@ -131,12 +131,13 @@ END_OF_PYTHON
 }
 check "failed rows name the varied values" failed_rows
 
+# Modes are columns of one table: the deck is refused, not some of its variants.
 refused() {
-  varied "SET c 266.7" "VARY b 280 -9 900 -10 270" "CRANK 0 90" "REPORT kinematics" >"$scratch/refused.deck"
-  run 2 --out "$scratch/nothing" "$scratch/refused.deck" && says "error: with b=-9: " &&
-    says "error: 2 of 5 variants are refused, the last one with b=-10" && absent "$scratch/nothing"
+  varied "SET c 266.7" "SET b 280" "VARY n 2 3 1" "MODES \$n" "CRANK 0 90" "REPORT frequencies" >"$scratch/refused.deck"
+  run 2 --out "$scratch/nothing" "$scratch/refused.deck" && says "error: with n=3: all variants must have as many modes" &&
+    says "error: 2 of 3 variants are refused, the last one with n=1" && absent "$scratch/nothing"
 }
-check "refused variants: nothing is written" refused
+check "variants that cannot be in one table: nothing is written" refused
 
 # A coupler of 900 mm fits nowhere, one of 100 at 0 degrees only; the others are computed.
 varied "SET c 266.7" "VARY b 280 900 270 100" "SPEED 0 2" "CRANK 0 90" "REPORT kinematics" "REPORT frequencies" "REPORT linkage" \

@@ -1,7 +1,7 @@
 !> Decks that tests write down: read, computed, and the tables that reports make of them.
 module computed_decks
   use cards, only: card_t, read_cards
-  use deck_readings, only: read_variant
+  use variant_readings, only: read_variant
   use deck_source, only: source_from_text, source_t
   use diagnostics, only: diagnostics_t, has_errors, render_errors
   use errors, only: error_t, rendered

@@ -4,7 +4,7 @@ module card_reader
   use card_table, only: card_kind_t, keys_of, kind_of_card
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
-  use errors, only: error_of_input, error_t, set_error
+  use errors, only: error_of_input, error_of_writing, error_t, set_error
   use key_hints, only: key_hint
   use kinds, only: wp
   use numbers, only: number_length, read_integer, read_real
@@ -61,11 +61,12 @@ contains
 
     fine = size(card%words) >= least .and. size(card%words) <= most
     if (size(card%words) < least) then
-      call add_error(diagnostics, card%keyword, "this card is too short; expected: "//pattern)
+      call add_error(diagnostics, card%keyword, "this card is too short; expected: "//pattern, &
+        kind=error_of_writing)
     else if (size(card%words) > most) then
       call add_error(diagnostics, card%words(most + 1), "unexpected '"// &
         card%words(most + 1)%text//"'"//unit_apart(card%words(most + 1)%text)//"; expected: "// &
-        pattern)
+        pattern, kind=error_of_writing)
     end if
     allowed = word_list(keys)
     if (present(known_keys)) known_keys = .true.
@@ -75,7 +76,7 @@ contains
         if (.not. has_word(allowed, key%text)) then
           if (present(known_keys)) known_keys = .false.
           call add_error(diagnostics, key, "unknown key '"//key%text//"'"//key_hint(key%text, &
-            allowed)//"; expected: "//pattern)
+            allowed)//"; expected: "//pattern, kind=error_of_writing)
         end if
         do j = 1, i - 1
           if (.not. same_word(card%entries(j)%key%text, key%text)) cycle
@@ -164,7 +165,7 @@ contains
     length = number_length(word%text)
     if (length == 0) then
       call add_error(diagnostics, word, "'"//word%text//"' is not a number"// &
-        dash_hint(word%text)//"; expected "//dimension_name(dimension))
+        dash_hint(word%text)//"; expected "//dimension_name(dimension), kind=error_of_writing)
       return
     end if
     call read_real(word%text(:length), value, error)
@@ -196,7 +197,7 @@ contains
     end if
     fine = .not. allocated(error)
     if (fine) return
-    call add_error(diagnostics, place, error%text)
+    call add_error(diagnostics, place, error%text, kind=error_of_writing)
   end subroutine read_measure
 
   !> For a number with one decimal comma: the number with a point. Three digits after a comma may
@@ -295,7 +296,7 @@ contains
       call read_quantity(card%entries(i)%value, dimension, system, diagnostics, value, fine)
     else if (required .and. .not. has_key(card, key)) then
       call add_error(diagnostics, card%keyword, "'"//key//"=' is missing; expected "// &
-        dimension_name(dimension))
+        dimension_name(dimension), kind=error_of_writing)
     end if
   end subroutine read_entry_quantity
 
@@ -425,7 +426,7 @@ contains
     end do
     if (choice == 0) then
       call add_error(diagnostics, word, "unknown word '"//word%text//"'"//suggestion(word%text, &
-        list)//"; expected one of: "//joined(list))
+        list)//"; expected one of: "//joined(list), kind=error_of_writing)
     end if
   end subroutine read_choice
 

@@ -9,8 +9,8 @@ module variants
   use settings, only: read_settings, settings_t, warn_of_unused_settings
   use substitution, only: put_value, slot_t, substitute
   use text, only: same_word, string_t, to_string
-  use tokens, only: token_texts
-  use variations, only: read_variation, variation_t
+  use tokens, only: token_t, token_texts
+  use variations, only: get_value_word, read_variation, variation_t
   implicit none (type, external)
   private
 
@@ -143,6 +143,7 @@ contains
     type(card_t), allocatable, intent(inout) :: cards(:) !! (cards) not allocated, or of another
                                                          !! variant
 
+    type(token_t) :: word
     integer :: choice(size(deck%variations)), k
 
     if (.not. allocated(cards)) cards = deck%fixed
@@ -150,8 +151,9 @@ contains
     do k = 1, size(deck%slots)
       if (deck%source_of(k) == 0) cycle
       associate (variation => deck%variations(deck%source_of(k)))
-        if (size(variation%word) > 0) then
-          call put_value(cards, deck%slots(k), variation%word(choice(deck%source_of(k))))
+        if (size(variation%value) > 0) then
+          call get_value_word(variation, choice(deck%source_of(k)), word)
+          call put_value(cards, deck%slots(k), word)
         else
           call mark_unknown(cards, deck%slots(k))
         end if
@@ -219,13 +221,15 @@ contains
     integer, intent(in) :: number          !! of the variant, from 1
     character(len=:), allocatable :: text
 
+    type(token_t) :: word
     integer :: choice(size(deck%variations)), k
 
     choice = choices(deck, number)
     text = ""
     do k = 1, size(choice)
       if (k > 1) text = text//" "
-      text = text//deck%variations(k)%name%text//"="//deck%variations(k)%word(choice(k))%text
+      call get_value_word(deck%variations(k), choice(k), word)
+      text = text//deck%variations(k)%name%text//"="//word%text
     end do
   end function variant_text
 

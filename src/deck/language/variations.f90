@@ -12,16 +12,17 @@ module variations
   implicit none (type, external)
   private
 
-  public :: variation_t, read_variation
+  public :: variation_t, read_variation, get_value_word
 
   !> One VARY card.
   type :: variation_t
     type(token_t) :: name                 !! on its card
     integer :: setting = 0                !! its number among the settings
     character(len=:), allocatable :: unit !! of all values; empty: none
-    real(wp), allocatable :: value(:)     !! (values) in this unit
-    type(token_t), allocatable :: word(:) !! (values) each as text with its unit, which reads back
-                                          !! to the same double, and its place
+    real(wp), allocatable :: value(:)     !! (values) in this unit; there may be a million, so that
+                                          !! words are made of them one by one
+    type(token_t), allocatable, private :: words(:) !! of the card after its name
+    integer, allocatable, private :: word(:)        !! (values) number of the word it comes from
   end type variation_t
 
   !> The column of every CSV table with the reason why a row has failed.
@@ -44,13 +45,13 @@ contains
 
     type(token_t), allocatable :: words(:)
     type(value_list_t) :: list
-    integer :: i, errors
+    integer :: errors
     logical :: fine
 
     variation%name = card%words(1)
     variation%setting = setting
     variation%unit = ""
-    allocate (variation%value(0), variation%word(0))
+    allocate (variation%value(0))
     words = card%words(2:)
     errors = error_count(diagnostics)
     if (is_column(variation%name%text, cards, reports)) call add_error(diagnostics, &
@@ -62,13 +63,19 @@ contains
     call read_values(words, dimension_none, si_units(), "value", diagnostics, list)
     if (error_count(diagnostics) > errors .or. any(words%set_line < 0)) return
     variation%value = list%value
-    deallocate (variation%word)
-    allocate (variation%word(size(list%value)))
-    do i = 1, size(list%value)
-      variation%word(i) = card%words(1 + list%word(i))
-      variation%word(i)%text = shortest_text(list%value(i))//variation%unit
-    end do
+    variation%words = card%words(2:)
+    variation%word = list%word
   end subroutine read_variation
+
+  !> A value as text with its unit, which reads back to the same double, and its place.
+  pure subroutine get_value_word(variation, number, word)
+    type(variation_t), intent(in) :: variation !! with values
+    integer, intent(in) :: number              !! of the value, from 1
+    type(token_t), intent(out) :: word         !! at the place of the word that it comes from
+
+    word = variation%words(variation%word(number))
+    word%text = shortest_text(variation%value(number))//variation%unit
+  end subroutine get_value_word
 
   !> Whether a name is that of a column. Column names of some reports are refused only in decks that
   !! request them: `M`, `load` or `time` may vary elsewhere.

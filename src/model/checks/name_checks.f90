@@ -1,6 +1,7 @@
 !> Names across cards: duplicate definitions, and references from card to card.
 module name_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t
+  use errors, only: error_of_input, error_of_writing
   use link_cards, only: link_t
   use models, only: is_four_bar, model_t
   use name_index, only: find_name, name_index_t, new_name_index
@@ -158,8 +159,18 @@ contains
 
     number = find_name(list, word%text)
     if (number == 0) call add_error(diagnostics, word, "unknown "//noun//" '"//word%text//"'"// &
-      suggestion(word%text, list%name))
+      suggestion(word%text, list%name), kind=kind_of_unknown(word%text))
   end subroutine look_up
+
+  !> Kind of the error that a name is unknown: so it is whatever varies, unless it begins like a
+  !! number, as a value of VARY that names something does.
+  pure function kind_of_unknown(name) result(kind)
+    character(len=*), intent(in) :: name
+    integer :: kind
+
+    kind = error_of_writing
+    if (scan(name, "0123456789.+-") == 1) kind = error_of_input
+  end function kind_of_unknown
 
   !> Every moving pin of a four-bar joins at least two links; of another linkage it may be an end,
   !! unless it looks like a misspelt one. Every ground pivot carries a link or a block.

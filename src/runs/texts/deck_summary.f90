@@ -9,7 +9,7 @@ module deck_summary
   use models, only: model_t, needs_frequencies
   use program_version, only: program_name, version_number
   use run_findings, only: at_forces, at_instant, at_position, failure_t, findings_t, in_motion, &
-    in_response, in_campbell, in_intervals, in_stability, in_transient, of_variant
+    in_response, in_campbell, in_intervals, in_stability, in_transient, of_variant, untold_failures
   use run_totals, only: run_totals_t
   use tables, only: column_t, has_unit, table_t
   use text, only: character_count, plural, string_t
@@ -47,6 +47,7 @@ contains
     call add_member(object, "warnings", json_array(warning_list(diagnostics, source, findings, &
       file)))
     call add_member(object, "failures", failure_array(findings, parameters))
+    call add_member(object, "more_failures", json_value(untold_failures(findings)))
     do i = 1, size(tables)
       call add_item(list, table_object(tables(i)))
     end do
@@ -307,7 +308,8 @@ contains
   end function second_place
 
   !> Positions without a pose (speed null), positions × speeds without modes, motions that ended too
-  !! soon (speed null, with their time), and variants without any pose (speed and crank null).
+  !! soon (speed null, with their time), and variants that failed as a whole (speed and crank null),
+  !! as far as they are kept.
   pure function failure_array(findings, parameters) result(value)
     type(findings_t), intent(in) :: findings    !! of all variants
     type(string_t), intent(in) :: parameters(:) !! names of the VARY parameters
@@ -316,7 +318,7 @@ contains
     type(json_list_t) :: list
     integer :: i
 
-    do i = 1, findings%failures
+    do i = 1, findings%kept
       call add_item(list, failure_object(findings%failed(i), parameters))
     end do
     value = json_array(list)

@@ -4,16 +4,16 @@ module findings_texts
   use diagnostics, only: diagnostics_t, warning_texts
   use run_findings, only: at_forces, at_instant, at_position, failure_t, findings_t, in_motion, &
     in_response, in_campbell, in_intervals, in_stability, in_transient, of_variant, &
-    place_of_failure, warnings_of_grade
+    place_of_failure, untold_failures, warnings_of_grade
   use text, only: string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use warnings, only: grade_doubt, grade_meaningless
   implicit none (type, external)
   private
 
-  public :: findings_messages, findings_log
+  public :: findings_messages, findings_log, failure_text
 
-  !> Warnings, and failed rows, that standard error shows at most; the log lists all.
+  !> Warnings, and failed rows, that standard error shows at most; the log lists more.
   integer, parameter :: most_shown = 20
 
   character(len=*), parameter :: line_feed = achar(10)
@@ -22,7 +22,7 @@ contains
 
   !> `speed 20 rad/s, crank 45 deg: reason`, `response, speed 20 rad/s: reason` or `motion, time
   !! 2.5 s, crank 45 deg: reason`; of a variant as a whole, the reason alone
-  pure function failure_line(failure) result(line)
+  pure function failure_text(failure) result(line)
     type(failure_t), intent(in) :: failure
     character(len=:), allocatable :: line
 
@@ -46,14 +46,14 @@ contains
     case (in_transient)
       line = "transient, speed "//failure%speed_words
     case (of_variant)
-      line = failure%variant//": "//failure%error%text//line_feed
+      line = failure%variant//": "//failure%error%text
       return
     case default
       line = "speed "//failure%speed_words//", "//place_of_failure(failure)
     end select
-    line = line//": "//failure%error%text//line_feed
+    line = line//": "//failure%error%text
     if (len(failure%variant) > 0) line = failure%variant//", "//line
-  end function failure_line
+  end function failure_text
 
   !> Warnings, those of meaningless results first, then failed rows, for standard error. Each line
   !! begins with the deck's path.
@@ -63,14 +63,13 @@ contains
     logical, intent(in), optional :: has_log !! whether there is a `run.log`; absent: yes
     character(len=:), allocatable :: text
 
-    character(len=:), allocatable :: place
     type(string_t), allocatable :: severe(:), others(:)
     integer :: i
+    logical :: logged
 
     text = ""
-    place = "; run.log lists them"
-    if (present(has_log)) place = merge(place, repeat(" ", len(place)), has_log)
-    place = trim(place)
+    logged = .true.
+    if (present(has_log)) logged = has_log
     severe = warnings_of_grade(findings, grade_meaningless)
     others = warnings_of_grade(findings, grade_doubt)
     do i = 1, size(severe)
@@ -81,19 +80,27 @@ contains
     end do
     if (size(others) > most_shown) then
       text = text//path//": "//to_string(size(others) - most_shown)// &
-        " more warnings"//place//line_feed
+        " more warnings"//trim(merge("; run.log lists them", "                    ", logged))// &
+        line_feed
     end if
-    do i = 1, min(findings%failures, most_shown)
-      text = text//path//": error: "//failure_line(findings%failed(i))
+    do i = 1, min(findings%kept, most_shown)
+      text = text//path//": error: "//failure_text(findings%failed(i))//line_feed
     end do
     if (findings%failures > most_shown) then
       text = text//path//": error: "//to_string(findings%failures - most_shown)// &
-        " more failures"//place//line_feed
+        " more failures"
+      if (logged .and. untold_failures(findings) > 0) then
+        text = text//"; run.log lists the first "//to_string(findings%kept)// &
+          ", the tables mark all"
+      else if (logged) then
+        text = text//"; run.log lists them"
+      end if
+      text = text//line_feed
     end if
   end function findings_messages
 
-  !> Warnings of the deck and of the run, those of meaningless results first, then failed rows, for
-  !! the log: all of them, without the path.
+  !> Warnings of the deck and of the run, those of meaningless results first, then failed rows as
+  !! far as they are kept, for the log, without the path.
   pure function findings_log(diagnostics, source, findings) result(text)
     type(diagnostics_t), intent(in) :: diagnostics !! of the deck
     type(source_t), intent(in) :: source           !! that their places refer to
@@ -117,9 +124,11 @@ contains
     end do
     if (findings%failures > 0) call append_text(buffer, "failures: "// &
       to_string(findings%failures)//line_feed)
-    do i = 1, findings%failures
-      call append_text(buffer, failure_line(findings%failed(i)))
+    do i = 1, findings%kept
+      call append_text(buffer, failure_text(findings%failed(i))//line_feed)
     end do
+    if (untold_failures(findings) > 0) call append_text(buffer, "… and "// &
+      to_string(untold_failures(findings))//" more: they are marked in the tables"//line_feed)
     text = buffer_text(buffer)
   end function findings_log
 

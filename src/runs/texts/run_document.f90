@@ -7,6 +7,7 @@ module run_document
   use json_text, only: add_item, add_member, json_array, json_list_t, json_null, json_object, &
     json_value
   use program_version, only: program_name, version_number
+  use run_findings, only: untold_failures
   use text, only: string_t
   use variants, only: parameter_names
   implicit none (type, external)
@@ -97,6 +98,8 @@ contains
       outcome%result%findings, path)))
     call add_member(object, "failures", failure_array(outcome%result%findings, &
       parameter_names(deck%cards)))
+    call add_member(object, "more_failures", &
+      json_value(untold_failures(outcome%result%findings)))
     value = json_object(object)
   end function deck_object
 
