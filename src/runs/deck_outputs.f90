@@ -21,8 +21,8 @@ module deck_outputs
   implicit none (type, external)
   private
 
-  public :: outputs_t, open_outputs, open_folder, tables_of, write_variant, write_found_rows, &
-    write_texts, publish_outputs, discard_outputs, forget_waiting
+  public :: outputs_t, open_outputs, open_folder, refuse_folder, tables_of, write_variant, &
+    write_found_rows, write_texts, publish_outputs, discard_outputs, forget_waiting
 
   !> The files of one output folder.
   type :: outputs_t
@@ -133,8 +133,8 @@ contains
 
   !> Errors: there is a folder with the path of a file.
   subroutine refuse_folder(path, error)
-    character(len=*), intent(in) :: path
-    type(error_t), allocatable, intent(inout) :: error
+    character(len=*), intent(in) :: path               !! of the file
+    type(error_t), allocatable, intent(inout) :: error !! as it was if there is none
 
     if (is_directory(path)) call set_error(error, error_of_files, &
       "this is a folder, and a file is to be written there", path)
@@ -337,10 +337,11 @@ contains
 
   !> Removes the temporary files, and the folders that this run made. Files of an earlier run stay.
   subroutine discard_outputs(outputs)
-    type(outputs_t), intent(inout) :: outputs !! opened, as far as was possible
+    type(outputs_t), intent(inout) :: outputs !! opened, as far as was possible, or new
 
     integer :: i
 
+    if (.not. allocated(outputs%folder)) return
     do i = 1, size(outputs%tables)
       call discard_table(outputs%tables(i))
     end do

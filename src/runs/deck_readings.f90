@@ -11,6 +11,7 @@ module deck_readings
   use includes, only: read_all_cards
   use models, only: model_t
   use report_table, only: reports
+  use study_parts, only: part_t
   use table_files, only: add_table_files
   use text, only: string_t
   use variant_checks, only: check_variants, verdict_t
@@ -43,13 +44,14 @@ contains
   !! `refusal`); a card is wrong, memory does not suffice, or the mechanics are wrong (all in
   !! `diagnostics`); of variants, those of `check_variants`. After an interruption the deck is not
   !! for use.
-  subroutine read_deck(path, threads, deck, settings, processes)
+  subroutine read_deck(path, threads, deck, settings, processes, part)
     character(len=*), intent(in) :: path                !! `-`: standard input
     integer, intent(in) :: threads                      !! that will compute the deck
     type(deck_t), intent(out) :: deck                   !! as read; its model is complete only
                                                         !! without errors
     type(string_t), intent(in), optional :: settings(:) !! of the command line, each `name=value`
     integer, intent(in), optional :: processes          !! that share the memory; absent: one
+    type(part_t), intent(in), optional :: part          !! of the variants that will be computed
 
     type(card_t), allocatable :: cards(:)
     type(available_memory_t) :: available
@@ -80,7 +82,7 @@ contains
     end if
     available = find_available_memory(threads, processes)
     if (variant_count(deck%cards) > 1 .and. .not. has_errors(deck%diagnostics)) then
-      call read_variants(deck, threads, available)
+      call read_variants(deck, threads, available, part)
     else
       call read_variant(deck%cards, 1, cards, deck%diagnostics, deck%model)
       call check_variant(deck%model, threads, available, deck%diagnostics)
@@ -96,16 +98,17 @@ contains
 
   !> Reads and checks all variants, and takes the model of the first that can be computed. Errors:
   !! those of `check_variants`.
-  subroutine read_variants(deck, threads, available)
+  subroutine read_variants(deck, threads, available, part)
     type(deck_t), intent(inout) :: deck !! whose cards are without errors
     integer, intent(in) :: threads      !! that will compute the deck
     type(available_memory_t), intent(in) :: available
+    type(part_t), intent(in), optional :: part !! of the variants that will be computed
 
     type(card_t), allocatable :: cards(:)
     type(diagnostics_t) :: none
 
     call check_variants(deck%cards, deck%source, threads, available, deck%diagnostics, &
-      deck%verdict)
+      deck%verdict, part)
     if (has_errors(deck%diagnostics) .or. was_interrupted()) return
     call read_variant(deck%cards, deck%verdict%leading, cards, none, deck%model)
     deck%model%echo = echo_cards(deck%cards, cards, deck%model%effects, reports, deck%source)

@@ -5,7 +5,7 @@ module deck_runs
   use cards, only: card_t
   use deck_bytes, only: get_deck, put_deck
   use deck_outputs, only: discard_outputs, open_folder, open_outputs, outputs_t, publish_outputs, &
-    write_found_rows, write_texts, write_variant
+    refuse_folder, write_found_rows, write_texts, write_variant
   use deck_readings, only: deck_t
   use deck_summary, only: summary_text
   use diagnostics, only: diagnostics_t, warnings_of, diagnostic_t
@@ -30,8 +30,8 @@ module deck_runs
   use study_requests, only: motion_instants_of
   use success_text, only: text_of_success
   use tables, only: column_t, real_column
-  use task_journal, only: close_journal, journal_t, open_journal, publish_journal, &
-    remove_journal
+  use task_journal, only: begun, close_journal, journal_t, keeps_tasks, open_journal, &
+    publish_journal, remove_journal
   use text, only: plural, string_t, to_string
   use text_buffer, only: text_buffer_t
   use variant_log, only: log_of_variant
@@ -129,21 +129,23 @@ contains
     type(session_t) :: session
     type(run_times_t) :: times
     type(stopwatch_t) :: watch
-    integer :: blocks
+    integer :: blocks, variants
 
+    variants = variant_count(deck%cards)
     call open_files(deck, options, session, blocks, error)
     if (.not. allocated(error)) then
-      call start_progress(session%progress, deck%base, trim(merge("variants ", "positions", &
-        variant_count(deck%cards) > 1)), .not. options%quiet)
+      call start_progress(session%progress, deck%base, &
+        trim(merge("variants ", "positions", variants > 1)), .not. options%quiet)
       call start_stopwatch(watch)
       call run_variants(deck, options, session, error)
       call lap(watch, times%variants)
       call end_progress(session%progress)
-      if (variant_count(deck%cards) > 1 .and. options%part%count == 0 .and. &
-        session%outputs%computed == 0 .and. .not. (allocated(error) .or. was_interrupted())) then
-        call set_error(error, error_of_numerics, "none of the "// &
-          to_string(variant_count(deck%cards))//" variants could be computed; "// &
-          failure_text(session%findings%failed(1)), deck%source%path)
+      ! Of a part nobody knows what the others come to.
+      if (variants > 1 .and. options%part%count == 0 .and. session%outputs%computed == 0 .and. &
+        .not. (allocated(error) .or. was_interrupted())) then
+        call set_error(error, error_of_numerics, "none of the "//to_string(variants)// &
+          " variants could be computed; "//failure_text(session%findings%failed(1)), &
+          deck%source%path)
       end if
       ! It would fail again: nothing to resume from.
       if (allocated(error)) call remove_journal(session%journal)
@@ -178,7 +180,7 @@ contains
     integer, intent(out) :: blocks !! of an earlier run; -1: it was of another deck or program
     type(error_t), allocatable, intent(out) :: error
 
-    character(len=:), allocatable :: folder, title
+    character(len=:), allocatable :: folder, title, name
     integer :: count
 
     blocks = 0
@@ -186,8 +188,12 @@ contains
     title = journal_title(deck)
     if (options%part%count > 0) then
       call open_folder(folder, session%outputs, error)
-      if (.not. allocated(error)) call open_journal(folder, title, options%resume, &
-        session%journal, blocks, part_name(deck%base, options%part))
+      name = part_name(deck%base, options%part)
+      if (.not. allocated(error)) call refuse_folder(joined_path(folder, name), error)
+      if (allocated(error)) return
+      call open_journal(folder, title, options%resume, session%journal, blocks, name)
+      if (.not. keeps_tasks(session%journal)) call set_error(error, error_of_files, &
+        "this file cannot be written", joined_path(folder, name)//begun)
       return
     end if
     if (options%join) then

@@ -417,6 +417,7 @@ contains
     close (journal%unit, iostat=status)
     journal%is_open = .false.
     if (status == 0 .and. .not. journal%broken) blocks = journal%blocks + journal%kept
+    if (blocks == 0 .and. .not. journal%broken) call remove_file(journal%path)
   end subroutine close_journal
 
   !> Puts a journal that stays in place, complete.

@@ -20,6 +20,7 @@ module variant_checks
   use kinds, only: wp
   use models, only: model_t
   use rank_tasks, only: help_with_tasks
+  use study_parts, only: first_variant, last_variant, part_t
   use task_journal, only: journal_t
   use tasks, only: run_tasks
   use text, only: string_t, to_string
@@ -64,12 +65,14 @@ module variant_checks
     type(deck_cards_t), pointer, private :: deck_cards => null()
     type(card_t), allocatable, private :: cards(:)       !! of the variant read last
     type(block_t), allocatable, private :: blocks(:)     !! (tasks) not yet joined
+    integer, private :: first = 1, last = 0              !! variants to be computed: what others
+                                                         !! leave is not told
     integer, private :: modes = 0, effects = 0           !! of the leading variant
     type(verdict_t), private :: verdict
     type(diagnostics_t), private :: warnings             !! of the deck and of all variants
     type(diagnostics_t), private :: failures             !! what keeps variants from being computed,
                                                          !! as warnings
-    type(diagnostics_t), private :: first                !! of the first variant
+    type(diagnostics_t), private :: of_first             !! of the first variant
     type(diagnostics_t), private :: unlike               !! errors of the first that is unlike the
                                                          !! leading one
   contains
@@ -90,11 +93,11 @@ module variant_checks
 
 contains
 
-  !> Reads and checks all variants of a deck.
+  !> Reads and checks all variants of a deck, or those of a part and the one that leads.
   !!
   !! Errors: variants that cannot be in one table, the first of them in full and the others counted;
   !! if no variant is sound, or all have the errors of the first one, these.
-  subroutine check_variants(deck_cards, source, threads, available, diagnostics, verdict)
+  subroutine check_variants(deck_cards, source, threads, available, diagnostics, verdict, part)
     type(deck_cards_t), intent(in), target :: deck_cards !! without errors
     type(source_t), intent(in) :: source                 !! of the deck
     integer, intent(in) :: threads                       !! that will compute the deck
@@ -103,13 +106,14 @@ contains
                                                          !! variants are added
     type(verdict_t), intent(out) :: verdict              !! holds if there are no errors, and if the
                                                          !! run was not interrupted
+    type(part_t), intent(in), optional :: part           !! that will be computed; absent: all
 
     type(check_job_t) :: job
     type(journal_t) :: no_journal
     type(diagnostics_t) :: first
     type(model_t) :: model
     type(text_buffer_t) :: bytes
-    integer :: blocks
+    integer :: blocks, next
 
     ! Of a million variants, a misspelt name would be told minutes later.
     call read_variant(deck_cards, 1, job%cards, first, model)
@@ -127,7 +131,20 @@ contains
     job%announcement = bytes%storage(:bytes%length)
     ! One thread: it makes texts, and gfortran 12 keeps the lengths of such results in one place for
     ! all threads.
-    call run_tasks(job, 1, blocks, 1, no_journal, -1)
+    next = 1
+    if (present(part)) then
+      job%first = first_variant(part, variant_count(deck_cards))
+      job%last = last_variant(part, variant_count(deck_cards))
+      ! Heads and texts are those of the variant that leads, which may be in another part.
+      do while (job%verdict%leading == 0 .and. next <= blocks)
+        call run_tasks(job, next, next, 1, no_journal, -1)
+        next = next + 1
+        if (was_interrupted()) return
+      end do
+      next = max(next, block_of(job%first))
+      blocks = block_of(job%last)
+    end if
+    call run_tasks(job, next, blocks, 1, no_journal, -1)
     ! Of some variants nothing is known then.
     if (was_interrupted()) return
     call conclude_checks(job, diagnostics, verdict)
@@ -165,7 +182,8 @@ contains
     type(diagnostics_t), intent(in) :: diagnostics       !! of the deck
     integer, intent(out) :: blocks                       !! number of tasks
 
-    blocks = (variant_count(deck_cards) - 1)/variants_at_a_time + 1
+    blocks = block_of(variant_count(deck_cards))
+    job%last = variant_count(deck_cards)
     job%deck_cards => deck_cards
     job%verdict%threads = threads
     job%verdict%available = available
@@ -210,6 +228,13 @@ contains
       is = is .and. list(i)%place%set_line == 0
     end do
   end function is_written_wrongly
+
+  !> Number of the block that has a variant.
+  pure integer function block_of(number)
+    integer, intent(in) :: number !! of the variant
+
+    block_of = (number - 1)/variants_at_a_time + 1
+  end function block_of
 
   !> Numbers of the first and the last variant of a block.
   pure function limits_of(self, number) result(limits)
@@ -307,18 +332,21 @@ contains
     type(checked_variant_t), intent(in) :: checked
 
     character(len=:), allocatable :: name
+    logical :: is_told
 
-    if (number == 1) self%first = checked%diagnostics
+    is_told = number >= self%first .and. number <= self%last
+    if (number == 1) self%of_first = checked%diagnostics
     ! Nearly all variants have nothing to say, and do not need their names.
     name = ""
     if (has_messages(checked%diagnostics)) name = variant_text(self%deck_cards, number)
-    call join_warnings(self%warnings, checked%diagnostics, name)
+    if (is_told) call join_warnings(self%warnings, checked%diagnostics, name)
     if (has_other_errors(checked%diagnostics, error_of_reach)) then
+      if (.not. is_told) return
       call take_refused(self%verdict, number)
       call join_failures(self%failures, checked%diagnostics, name, warning_of_refusal)
       return
     end if
-    if (has_errors(checked%diagnostics)) then
+    if (is_told .and. has_errors(checked%diagnostics)) then
       self%verdict%short = self%verdict%short + 1
       call join_failures(self%failures, checked%diagnostics, name, warning_of_reach)
     end if
@@ -328,6 +356,7 @@ contains
       self%effects = checked%effects
     end if
     if (checked%modes == self%modes .and. checked%effects == self%effects) return
+    if (.not. is_told) return
     self%verdict%unlike = self%verdict%unlike + 1
     self%verdict%last_unlike = number
     if (self%verdict%unlike > 1) return
@@ -394,12 +423,17 @@ contains
     logical :: none_sound
 
     verdict = job%verdict
-    count = variant_count(job%deck_cards)
+    count = job%last - job%first + 1
     none_sound = verdict%refused_count + verdict%short == count
-    if (none_sound .and. has_other_errors(job%first, error_of_reach)) then
+    if (count < variant_count(job%deck_cards)) then
+      ! A part of which no variant is sound may be one of a study that makes sense.
+      none_sound = verdict%leading == 0
+      if (none_sound) count = variant_count(job%deck_cards)
+    end if
+    if (none_sound .and. has_other_errors(job%of_first, error_of_reach)) then
       ! As a rule it is the deck that is wrong, not this variant.
-      call append_warnings(diagnostics, job%first)
-      call take_errors(job%first, "", diagnostics)
+      call append_warnings(diagnostics, job%of_first)
+      call take_errors(job%of_first, "", diagnostics)
       return
     end if
     diagnostics = job%warnings
@@ -410,7 +444,7 @@ contains
       call take_errors(job%unlike, "", diagnostics)
       call count_refused(verdict%unlike, verdict%last_unlike)
     else if (none_sound) then
-      call take_errors(job%first, "with "//variant_text(job%deck_cards, 1)//": ", diagnostics)
+      call take_errors(job%of_first, "with "//variant_text(job%deck_cards, 1)//": ", diagnostics)
       call count_refused(count, count)
     end if
 

@@ -95,7 +95,7 @@ contains
     type(text_buffer_t) :: bytes
     type(findings_t) :: no_findings
     type(run_totals_t) :: no_totals
-    integer :: room, count, first, last
+    integer :: room, count, variants, first, last
 
     count = at_a_time*rank_count()
     room = max(1, min(most_at_a_time, rows_at_a_time/max(1, rows_of_variant)))
@@ -105,8 +105,9 @@ contains
     call put_deck(bytes, job%deck)
     call put_integers(bytes, [room, threads])
     job%announcement = bytes%storage(:bytes%length)
-    first = first_variant(job%part, variant_count(job%deck%cards))
-    last = last_variant(job%part, variant_count(job%deck%cards))
+    variants = variant_count(job%deck%cards)
+    first = first_variant(job%part, variants)
+    last = last_variant(job%part, variants)
     call run_tasks(job, first, last, at_a_time, journal, group_of_variants, room)
     if (job%headless == 0) return
     ! The variant that was to lead has failed, and the next one that has not came without what the

@@ -109,6 +109,33 @@ set_instead() {
 }
 check "--set instead of VARY" set_instead
 
+# The variants of whole parts have wrong values; what heads of tables are made of is in another part.
+wrong_values() {
+  mkdir -p "$scratch/wrong"
+  study 279.4 | sed "s/thickness=1.6/thickness=\$t/; s/^VARY .*/VARY t $1/; s/=\$b/=279.4/" >"$scratch/wrong/my.deck"
+  run 1 --out "$scratch/wrong/whole" "$scratch/wrong/my.deck" || return 1
+  for k in 1 2 3 4; do
+    run "$2" --out "$scratch/wrong/out" --part $k/4 "$scratch/wrong/my.deck" || return 1
+    shift
+  done
+  run 1 --out "$scratch/wrong/out" --join "$scratch/wrong/my.deck" && diff -rq -x '*.part*' "$scratch/wrong/out/my" "$scratch/wrong/whole/my"
+}
+all_wrong() {
+  sed -i 's/^VARY .*/VARY t -2 to -1 step 0.25/' "$scratch/wrong/my.deck"
+  run 2 --out "$scratch/none" --part 1/4 "$scratch/wrong/my.deck" && absent "$scratch/none"
+}
+check "parts with wrong values only" wrong_values "-1.5 to 1.5 step 0.25" 1 1 1 0
+check "parts with wrong values only at the end" wrong_values "2.5 1.5 to -1.5 step -0.25" 0 0 1 1
+check "a study of wrong values only" all_wrong
+
+# A part is checked for itself.
+own_warnings() {
+  part "$scratch/line" 1/6 && says "rows will be marked as failed: the crank angle" || return 1
+  part "$scratch/line" 6/6 || return 1
+  ! says "rows will be marked as failed" >/dev/null || { echo "it does"; return 1; }
+}
+check "a part does not warn of the variants of others" own_warnings
+
 # From here on: a study that takes some seconds, to be stopped.
 mkdir "$scratch/long"
 study "185 to 300 step 0.05" >"$scratch/long/my.deck"
@@ -315,6 +342,24 @@ other_values() {
 check "other values of --set" other_values
 
 check "and the parts are still joined" joins "$scratch/out" plain
+
+in_the_way() {
+  mkdir -p "$scratch/way/my/my.part1of2.resume"
+  run 2 --out "$scratch/way" --part 1/2 "$deck" && says "my.part1of2.resume: error: this file cannot be written" || return 1
+  mv "$scratch/way/my/my.part1of2.resume" "$scratch/way/my/my.part1of2"
+  run 2 --out "$scratch/way" --part 1/2 "$deck" && says "my.part1of2: error: this is a folder, and a file is to be written there" || return 1
+  rmdir "$scratch/way/my/my.part1of2" "$scratch/way/my"
+}
+check "a folder in the place of a part" in_the_way
+
+# No time for a single variant.
+no_time() {
+  run 130 --out "$scratch/soon" --part 1/1 --time-limit 1s "$scratch/endless/my.deck" &&
+    says "my.deck: stopped at its time limit of 1s; its earlier results are untouched" && absent "$scratch/soon/my/my.part1of1"
+}
+mkdir "$scratch/endless"
+study "185 to 300 step 5" | sed 's/^CRANK .*/CRANK 0 to 360 step 0.001/' >"$scratch/endless/my.deck"
+check "a part without time" no_time
 
 # The disk is a small tmpfs.
 full_disk() {

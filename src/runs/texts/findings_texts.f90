@@ -63,14 +63,13 @@ contains
     logical, intent(in), optional :: has_log !! whether there is a `run.log`; absent: yes
     character(len=:), allocatable :: text
 
-    character(len=:), allocatable :: place
     type(string_t), allocatable :: severe(:), others(:)
     integer :: i
+    logical :: logged
 
     text = ""
-    place = "; run.log lists them"
-    if (present(has_log)) place = merge(place, repeat(" ", len(place)), has_log)
-    place = trim(place)
+    logged = .true.
+    if (present(has_log)) logged = has_log
     severe = warnings_of_grade(findings, grade_meaningless)
     others = warnings_of_grade(findings, grade_doubt)
     do i = 1, size(severe)
@@ -81,7 +80,8 @@ contains
     end do
     if (size(others) > most_shown) then
       text = text//path//": "//to_string(size(others) - most_shown)// &
-        " more warnings"//place//line_feed
+        " more warnings"//trim(merge("; run.log lists them", "                    ", logged))// &
+        line_feed
     end if
     do i = 1, min(findings%kept, most_shown)
       text = text//path//": error: "//failure_text(findings%failed(i))//line_feed
@@ -89,12 +89,13 @@ contains
     if (findings%failures > most_shown) then
       text = text//path//": error: "//to_string(findings%failures - most_shown)// &
         " more failures"
-      if (untold_failures(findings) > 0 .and. len(place) > 0) then
+      if (logged .and. untold_failures(findings) > 0) then
         text = text//"; run.log lists the first "//to_string(findings%kept)// &
-          ", the tables mark all"//line_feed
-      else
-        text = text//place//line_feed
+          ", the tables mark all"
+      else if (logged) then
+        text = text//"; run.log lists them"
       end if
+      text = text//line_feed
     end if
   end function findings_messages
 
