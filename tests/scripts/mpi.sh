@@ -107,55 +107,71 @@ helped() {
 }
 check "help is printed once" helped
 
-# The journal of a run that was killed serves any number of ranks. Twenty times a run goes on, with another number, and is killed:
-# one rank at random, the leader or another, with a signal at random, or mpirun.
+# The journal of a run that was killed serves any number of ranks. KILLS times a run goes on, with another number, and is killed when
+# its journal has grown: one rank at random, the leader or another, with a signal at random, or mpirun. One that was done before it
+# was killed is compared, and another one begins.
 chain_deck() {
   beam_deck "VARY b 270 to 290 step $1" "CRANK 0 to 350 step 10" "SPEED 0 20" "REPORT frequencies" "REPORT kinematics" |
     sed 's/length=279.4/length=$b/'
 }
 cat >"$scratch/victim.sh" <<'END_OF_JOB'
-# victim.sh RANKS VICTIM SIGNAL DELAY COMMAND...: the victim is a rank, or `mpirun`
+# victim.sh RANKS VICTIM SIGNAL DELAY JOURNAL COMMAND...: the victim is a rank, or `mpirun`; status 0: it was killed
 ranks=$1
 victim=$2
 signal=$3
 delay=$4
-shift 4
+journal=$5
+shift 5
+bytes() {
+  wc -c 2>/dev/null <"$journal" || echo 0
+}
+before=$(bytes)
+rm -f "$told".*
 mpirun -n "$ranks" sh -c 'echo $$ >"$0.${OMPI_COMM_WORLD_RANK:-$PMI_RANK}"; exec "$@"' "$told" "$@" >/dev/null 2>&1 &
 started=$!
+tries=0
+while kill -0 $started && [ "$(bytes)" -le "$before" ] && [ $tries -lt 500 ]; do
+  sleep 0.02
+  tries=$((tries + 1))
+done
 sleep "$delay"
 if [ "$victim" = mpirun ]; then
   kill -s "$signal" $started
 else
   kill -s "$signal" "$(cat "$told.$victim")"
 fi
+killed=$?
 wait $started
+exit $killed
 END_OF_JOB
-killed_twenty_times() {
+kills_wanted=${KILLS:-8}
+killed_many_times() {
   step=0.02
   chain_deck $step >"$scratch/chain.deck"
   begin=$(date +%s%N)
   run 0 --out "$scratch/whole" --threads 2 "$scratch/chain.deck" || return 1
   took=$((($(date +%s%N) - begin)/1000000))
-  # As many variants as take twelve seconds.
-  step=$(awk -v step=$step -v took=$took 'BEGIN { step *= took/12000; printf "%.6f\n", step < 0.0004 ? 0.0004 : step }')
+  # As many variants as take eight seconds.
+  step=$(awk -v step=$step -v took=$took 'BEGIN { step *= took/8000; printf "%.6f\n", step < 0.0004 ? 0.0004 : step }')
   chain_deck "$step" >"$scratch/chain.deck"
   run 0 --out "$scratch/whole" --threads 2 "$scratch/chain.deck" || return 1
   rm -rf "$scratch/killed"
-  kills=0
   awk 'BEGIN { srand(7)
-    for (i = 0; i < 20; i++) {
+    for (i = 0; i < 200; i++) {
       n = 1 + int(4*rand()); v = int((n + 1)*rand())
-      print n, (v == n ? "mpirun" : v), (rand() < 0.5 || v == n ? "TERM" : "KILL"), 0.45 + 0.35*rand()
+      print n, (v == n ? "mpirun" : v), (rand() < 0.5 || v == n ? "TERM" : "KILL"), 0.1*rand()
     } }' >"$scratch/kills"
+  kills=0
   while read -r number victim signal delay; do
-    told="$scratch/pid" sh "$scratch/victim.sh" "$number" "$victim" "$signal" "$delay" "$parallel" --resume --threads $((1 + kills%2)) \
-      --out "$scratch/killed" "$scratch/chain.deck" 2>/dev/null </dev/null
-    [ ! -e "$scratch/killed/chain/frequencies.dat" ] || break
-    kills=$((kills + 1))
+    [ $kills -lt "$kills_wanted" ] || break
+    told="$scratch/pid" sh "$scratch/victim.sh" "$number" "$victim" "$signal" "$delay" "$scratch/killed/chain/resume.part" \
+      "$parallel" --resume --threads $((1 + kills%2)) --out "$scratch/killed" "$scratch/chain.deck" 2>/dev/null </dev/null &&
+      kills=$((kills + 1))
+    [ -e "$scratch/killed/chain/frequencies.dat" ] || continue
+    same "$scratch/killed/chain" "$scratch/whole/chain" || return 1
+    rm -rf "$scratch/killed"
   done <"$scratch/kills"
-  [ $kills -ge 12 ] || { echo "it was done after $kills kills"; return 1; }
-  ranks 3 0 --resume --out "$scratch/killed" "$scratch/chain.deck" || return 1
-  says "resumed with " || [ $kills -lt 20 ] || return 1
-  same "$scratch/killed/chain" "$scratch/whole/chain"
+  [ $kills -eq "$kills_wanted" ] || { echo "only $kills were killed"; return 1; }
+  ranks 3 0 --resume --out "$scratch/killed" "$scratch/chain.deck" && same "$scratch/killed/chain" "$scratch/whole/chain"
 }
-check "killed and resumed twenty times" killed_twenty_times
+check "killed and resumed $kills_wanted times" killed_many_times
