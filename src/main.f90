@@ -75,7 +75,7 @@ program main
   refused = .false.
   do i = 1, size(decks)
     call read_deck(command%decks(i)%text, command%threads, decks(i), command%settings, &
-      processes, command%part)
+      processes, command%part, .not. command%join)
     if (was_interrupted()) then
       call complain(outcomes(i), "interrupted")
       call say(command%decks(i)%text//": interrupted"//achar(10))

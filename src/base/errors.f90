@@ -6,13 +6,15 @@ module errors
 
   public :: error_t, place_t, outcome_t, set_error, clear_outcome, rendered
   public :: error_of_input, error_of_files, error_of_interruption, error_of_reach, &
-    error_of_dead_point, error_of_numerics, error_of_writing
+    error_of_dead_point, error_of_numerics, error_of_writing, &
+    error_of_memory
 
   !> Kinds of errors: wrong input, files of a run that cannot be read or written, an interruption, a
   !! position out of reach, a dead point, a numerical failure; a word that is wrong whatever the
-  !! values of others, for which other variants need not be looked at.
+  !! values of others, for which other variants need not be looked at; too little memory.
   integer, parameter :: error_of_input = 1, error_of_files = 2, error_of_interruption = 3, &
-    error_of_reach = 4, error_of_dead_point = 5, error_of_numerics = 6, error_of_writing = 7
+    error_of_reach = 4, error_of_dead_point = 5, error_of_numerics = 6, error_of_writing = 7, &
+    error_of_memory = 8
 
   !> The place of an error. Without a file, the caller knows it.
   type :: place_t

@@ -318,7 +318,7 @@ contains
       call append_plain(table, " "//table%columns(i)%name//"="//to_string(known(i), 12))
     end do
     call append_plain(table, " : "//reason//line_feed)
-    table%gap_due = .true.
+    table%gap_due = table%has_blocks
     table%failed_rows = table%failed_rows + 1
     if (.not. table%has_csv) return
     ! Without a known value there is one comma less: none stands before the first field.

@@ -271,7 +271,7 @@ contains
     associate (model => variant%model, results => variant%found, &
         state => variant%found%positions%state(position), &
         name => quantity_kinds(quantity%kind)%name)
-      found%is_there = is_computed(variant, report, position, speed)
+      found%is_there = is_computed(variant, table_of(report, name), position, speed)
       if (.not. found%is_there) return
       rates = drive_rates(model, speed, position)
       select case (report)
@@ -346,6 +346,15 @@ contains
       end select
     end associate
   end subroutine find_elastic_value
+
+  !> The table of a report that has a quantity.
+  pure function table_of(report, quantity) result(table)
+    character(len=*), intent(in) :: report, quantity !! names
+    character(len=10) :: table
+
+    table = report
+    if (report == "drive" .and. index(quantity, "shaking") == 1) table = "shaking"
+  end function table_of
 
   !> Whether a report's table has a row at a position and speed.
   pure function is_computed(variant, report, position, speed) result(is)

@@ -44,7 +44,7 @@ contains
   !! `refusal`); a card is wrong, memory does not suffice, or the mechanics are wrong (all in
   !! `diagnostics`); of variants, those of `check_variants`. After an interruption the deck is not
   !! for use.
-  subroutine read_deck(path, threads, deck, settings, processes, part)
+  subroutine read_deck(path, threads, deck, settings, processes, part, computes)
     character(len=*), intent(in) :: path                !! `-`: standard input
     integer, intent(in) :: threads                      !! that will compute the deck
     type(deck_t), intent(out) :: deck                   !! as read; its model is complete only
@@ -52,6 +52,8 @@ contains
     type(string_t), intent(in), optional :: settings(:) !! of the command line, each `name=value`
     integer, intent(in), optional :: processes          !! that share the memory; absent: one
     type(part_t), intent(in), optional :: part          !! of the variants that will be computed
+    logical, intent(in), optional :: computes           !! whether that is here, and takes memory;
+                                                        !! absent: it is
 
     type(card_t), allocatable :: cards(:)
     type(available_memory_t) :: available
@@ -81,6 +83,9 @@ contains
       call read_deck_cards(cards, none, deck%source, reports, deck%diagnostics, deck%cards)
     end if
     available = find_available_memory(threads, processes)
+    if (present(computes)) then
+      if (.not. computes) available%bytes = huge(available%bytes)
+    end if
     if (variant_count(deck%cards) > 1 .and. .not. has_errors(deck%diagnostics)) then
       call read_variants(deck, threads, available, part)
     else

@@ -94,7 +94,7 @@ module deck_runs
 
   !> Form of the bytes in a journal: another number wherever they mean something else, since the
   !! version of the program may stay the same.
-  character(len=*), parameter :: journal_form = "journal 9"
+  character(len=*), parameter :: journal_form = "journal 10"
 
 contains
 
@@ -283,8 +283,9 @@ contains
     else if (blocks == 0) then
       message = "no earlier run left anything to resume; this one started afresh"
     else
-      message = "resumed with "//plural(blocks, "block")// &
-        " of positions from an earlier run"
+      message = "resumed with "//plural(blocks, "block")//" of positions from an earlier run"
+      if (variant_count(deck%cards) > 1) message = "resumed with "//plural(blocks, "variant")// &
+        " from an earlier run"
     end if
     message = deck%source%path//": "//message//line_feed
   end function resumption_message

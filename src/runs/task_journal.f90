@@ -2,8 +2,8 @@
 !! `--resume`. The parts of a study that `--part` computes are complete journals.
 !!
 !! Blocks of results are appended when they are done, each between two equal marks, by which a
-!! block that was cut off is recognised. Results are kept to the last bit: a resumed run writes the
-!! same bytes as an undisturbed one. The first lines are the deck as the program understood it, and
+!! block that was cut off is recognised, and one that was changed. Results are kept to the last bit:
+!! a resumed run writes the same bytes as an undisturbed one. The first lines are the deck as the program understood it, and
 !! the program that computed it: a journal of another deck or program is not used.
 module task_journal
   use byte_streams, only: get_integers, put_integers
@@ -31,8 +31,8 @@ module task_journal
   !> Bytes are passed to the system after this time: so much work of a killed run is lost [s].
   real(wp), parameter :: flush_time = 0.25_wp
 
-  !> A mark before and after every task: group, number, length in bytes.
-  integer, parameter :: mark_bytes = 3*storage_size(1)/8
+  !> A mark before and after every task: group, number, length in bytes, checksum.
+  integer, parameter :: marks = 4, mark_bytes = marks*storage_size(1)/8
 
   !> The results of a task; there may be millions of them.
   type :: block_t
@@ -221,7 +221,7 @@ contains
 
     character(len=mark_bytes) :: mark, end_mark
     integer(long) :: bytes, place
-    integer :: numbers(3), at, status
+    integer :: numbers(marks), at, status
 
     inquire (unit=unit, size=bytes)
     inquire (unit=unit, pos=next)
@@ -256,7 +256,7 @@ contains
     journal%list(journal%blocks) = block
   end subroutine add_block
 
-  !> Returns the bytes of a task that an earlier run did.
+  !> Returns the bytes of a task that an earlier run did, if they are as it wrote them.
   subroutine recall_task(journal, task, bytes, found)
     type(journal_t), intent(inout) :: journal           !! opened
     integer, intent(in) :: task(2)                      !! group and number
@@ -264,17 +264,52 @@ contains
                                                         !! is not in the journal
     logical, intent(out) :: found                       !! whether the bytes could be read
 
-    integer :: unit, status
+    character(len=mark_bytes) :: mark
+    integer :: numbers(marks), unit, status, at
 
     found = has_task(journal, task)
     if (.not. found) return
     associate (block => journal%list(journal%last))
       call find_unit(journal, block%file, unit)
       allocate (character(len=block%length) :: bytes)
-      read (unit, pos=block%place, iostat=status) bytes
+      read (unit, pos=block%place - mark_bytes, iostat=status) mark, bytes
     end associate
+    at = 1
+    if (status == 0) call get_integers(mark, at, numbers)
     found = status == 0
+    if (found) found = numbers(marks) == checksum_of(bytes)
   end subroutine recall_task
+
+  !> A sum that tells bytes from those in which some are changed: two sums of words, the second of
+  !! the first (J. G. Fletcher, IEEE Trans. Commun. 30, 1982).
+  pure function checksum_of(bytes) result(sum)
+    character(len=*), intent(in) :: bytes
+    integer :: sum
+
+    integer(long), parameter :: modulus = 2_long**31 - 1, least = 2_long**31
+    !> As many words as the second sum has room for.
+    integer, parameter :: piece = 1024, word = storage_size(1)/8
+    integer :: words(piece), first, count, i
+    integer(long) :: sums(2)
+
+    sums = 1
+    do first = 1, len(bytes), piece*word
+      count = min(piece*word, len(bytes) - first + 1)
+      words = 0
+      words(:count/word) = transfer(bytes(first:first + count - 1), words, count/word)
+      ! The last bytes are no whole word.
+      do i = count - modulo(count, word) + 1, count
+        words(count/word + 1) = 256*words(count/word + 1) + iachar(bytes(first + i - 1:first + i &
+          - 1))
+      end do
+      do i = 1, (count + word - 1)/word
+        sums(1) = sums(1) + words(i) + least
+        sums(2) = sums(2) + sums(1)
+      end do
+      sums = modulo(sums, modulus)
+    end do
+    sum = int(ieor(sums(1), modulo(sums(2)*65599_long, modulus)))
+  end function checksum_of
 
   !> Whether the results of a task are in the journal.
   function has_task(journal, task) result(has)
@@ -377,7 +412,7 @@ contains
     integer :: status
 
     if (.not. keeps_tasks(journal)) return
-    call put_integers(mark, [task, bytes%length])
+    call put_integers(mark, [task, bytes%length, checksum_of(bytes%storage(:bytes%length))])
     write (journal%unit, pos=journal%next, iostat=status) mark%storage(:mark%length), &
       bytes%storage(:bytes%length), mark%storage(:mark%length)
     journal%broken = status /= 0

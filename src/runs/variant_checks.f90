@@ -14,7 +14,7 @@ module variant_checks
   use diagnostic_bytes, only: get_diagnostics, put_diagnostics
   use diagnostics, only: add_error, add_warning, append_warnings, count_warnings, diagnostic_t, &
     diagnostics_t, errors_of, has_errors, has_messages, has_other_errors, join_warnings
-  use errors, only: error_of_reach, error_of_writing
+  use errors, only: error_of_memory, error_of_reach, error_of_writing
   use interruption, only: was_interrupted
   use jobs, only: job_t
   use kinds, only: wp
@@ -56,7 +56,8 @@ module variant_checks
                                        !! cannot be computed, ascending
     integer :: refused_count = 0
     integer :: short = 0               !! variants that do not reach all positions
-    integer :: unlike = 0              !! variants that cannot be in one table with the leading one
+    integer :: unlike = 0              !! variants that cannot be in one table with the leading
+                                       !! one, or for which there is too little memory
     integer :: last_unlike = 0         !! number of the last of these
   end type verdict_t
 
@@ -69,6 +70,7 @@ module variant_checks
                                                          !! leave is not told
     integer, private :: modes = 0, effects = 0           !! of the leading variant
     type(verdict_t), private :: verdict
+    logical, private :: any_sound = .false.              !! some variant has no error at all
     type(diagnostics_t), private :: warnings             !! of the deck and of all variants
     type(diagnostics_t), private :: failures             !! what keeps variants from being computed,
                                                          !! as warnings
@@ -136,7 +138,8 @@ contains
       job%first = first_variant(part, variant_count(deck_cards))
       job%last = last_variant(part, variant_count(deck_cards))
       ! Heads and texts are those of the variant that leads, which may be in another part.
-      do while (job%verdict%leading == 0 .and. next <= blocks)
+      ! Where none is sound, the whole study is refused.
+      do while (.not. job%any_sound .and. next <= blocks)
         call run_tasks(job, next, next, 1, no_journal, -1)
         next = next + 1
         if (was_interrupted()) return
@@ -235,6 +238,18 @@ contains
 
     block_of = (number - 1)/variants_at_a_time + 1
   end function block_of
+
+  !> Whether some error is at a value that SET or VARY gives.
+  pure function is_at_value(diagnostics) result(is)
+    type(diagnostics_t), intent(in) :: diagnostics !! of the variant
+    logical :: is
+
+    type(diagnostic_t), allocatable :: list(:)
+    integer :: i
+
+    list = errors_of(diagnostics)
+    is = any([(list(i)%place%set_line /= 0, i=1, size(list))])
+  end function is_at_value
 
   !> Numbers of the first and the last variant of a block.
   pure function limits_of(self, number) result(limits)
@@ -340,6 +355,14 @@ contains
     name = ""
     if (has_messages(checked%diagnostics)) name = variant_text(self%deck_cards, number)
     if (is_told) call join_warnings(self%warnings, checked%diagnostics, name)
+    self%any_sound = self%any_sound .or. .not. has_errors(checked%diagnostics)
+    if (lacks_memory(checked%diagnostics)) then
+      ! What a machine has must not make rows: other machines would make others.
+      if (is_told) call refuse_deck(self, number)
+      if (is_told .and. self%verdict%unlike == 1) call take_errors(checked%diagnostics, &
+        "with "//name//": ", self%unlike)
+      return
+    end if
     if (has_other_errors(checked%diagnostics, error_of_reach)) then
       if (.not. is_told) return
       call take_refused(self%verdict, number)
@@ -357,8 +380,7 @@ contains
     end if
     if (checked%modes == self%modes .and. checked%effects == self%effects) return
     if (.not. is_told) return
-    self%verdict%unlike = self%verdict%unlike + 1
-    self%verdict%last_unlike = number
+    call refuse_deck(self, number)
     if (self%verdict%unlike > 1) return
     name = variant_text(self%deck_cards, number)
     if (checked%modes /= self%modes) then
@@ -370,6 +392,24 @@ contains
         "loads and one does not: EFFECTS must say whether axial forces act")
     end if
   end subroutine join_variant
+
+  !> Notes a variant for which the deck is refused.
+  pure subroutine refuse_deck(self, number)
+    class(check_job_t), intent(inout) :: self
+    integer, intent(in) :: number !! of the variant
+
+    self%verdict%unlike = self%verdict%unlike + 1
+    self%verdict%last_unlike = number
+  end subroutine refuse_deck
+
+  !> Whether there is too little memory for a variant.
+  pure function lacks_memory(diagnostics) result(lacks)
+    type(diagnostics_t), intent(in) :: diagnostics !! of the variant
+    logical :: lacks
+
+    lacks = has_errors(diagnostics)
+    if (lacks) lacks = .not. has_other_errors(diagnostics, error_of_memory)
+  end function lacks_memory
 
   !> Notes a variant that cannot be computed.
   pure subroutine take_refused(verdict, number)
@@ -427,13 +467,14 @@ contains
     none_sound = verdict%refused_count + verdict%short == count
     if (count < variant_count(job%deck_cards)) then
       ! A part of which no variant is sound may be one of a study that makes sense.
-      none_sound = verdict%leading == 0
+      none_sound = .not. job%any_sound
       if (none_sound) count = variant_count(job%deck_cards)
     end if
     if (none_sound .and. has_other_errors(job%of_first, error_of_reach)) then
       ! As a rule it is the deck that is wrong, not this variant.
       call append_warnings(diagnostics, job%of_first)
       call take_errors(job%of_first, "", diagnostics)
+      if (is_at_value(job%of_first)) call count_refused(count, count)
       return
     end if
     diagnostics = job%warnings

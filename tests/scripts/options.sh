@@ -160,7 +160,8 @@ END_OF_CARDS
 threads() {
   beam_deck "CRANK 0 to 360 step 5" "SPEED 0 10 20" "REPORT frequencies" "REPORT shapes" "REPORT inertia" >"$scratch/beam.deck"
   for number in 1 3 8; do
-    run 0 --quiet --threads $number --out "$out/$number" "$scratch/beam.deck" inputs/*.deck && same "$out/1" "$out/$number" || return 1
+    # Status 1: some rows of inputs/study.deck cannot be computed.
+    run 1 --quiet --threads $number --out "$out/$number" "$scratch/beam.deck" inputs/*.deck && same "$out/1" "$out/$number" || return 1
   done
 }
 

@@ -104,6 +104,23 @@ several() {
 }
 check "parts of several decks" several
 
+# A byte of a part that is another one: its variant is computed again.
+changed_byte() {
+  cp -r "$scratch/two" "$scratch/changed"
+  python3 -B - "$scratch/changed/my/my.part2of2" <<'END_OF_JOB' || return 1
+import sys
+with open(sys.argv[1], "r+b") as part:
+    part.seek(0, 2)
+    place = part.tell()*3//4
+    part.seek(place)
+    byte = part.read(1)
+    part.seek(place)
+    part.write(bytes([byte[0] ^ 4]))
+END_OF_JOB
+  run 1 --out "$scratch/changed" --join "$deck" && diff -rq -x '*.part*' "$scratch/changed/my" "$scratch/plain/my"
+}
+check "a part with a changed byte" changed_byte
+
 set_instead() {
   run 2 --set b=150 --out "$scratch/set" --part 1/1 "$deck" && says "my.deck: error: a deck without VARY has no parts" && absent "$scratch/set"
 }
@@ -151,7 +168,7 @@ stopped() {
 }
 resumed_part() {
   run 0 --out "$scratch/killed" --part 2/3 --resume "$scratch/long/my.deck" || return 1
-  says "my.deck: resumed with " && says " of positions from an earlier run" || return 1
+  says "my.deck: resumed with " && says " from an earlier run" || return 1
   [ "$(ls "$scratch/killed/my")" = my.part2of3 ] || { ls "$scratch/killed/my"; return 1; }
 }
 killed_part() {
@@ -313,7 +330,7 @@ import struct, sys
 data = open(sys.argv[1], "rb").read()
 at = ends = 4 + struct.unpack("i", data[:4])[0]
 while at < len(data):
-    ends, at = at, at + 24 + struct.unpack("3i", data[at:at + 12])[2]
+    ends, at = at, at + 32 + struct.unpack("4i", data[at:at + 16])[2]
 open(sys.argv[1], "wb").write(data[:ends])
 END_OF_PROGRAM
 }

@@ -93,7 +93,7 @@ resumed() {
   folder=$2
   shift 2
   run 0 --out "$folder" --format csv --resume "$@" "$scratch/$name.deck" || return 1
-  says "$name.deck: resumed with " && says " of positions from an earlier run" && complete "$folder" "$name"
+  says "$name.deck: resumed with " && says " from an earlier run" && complete "$folder" "$name"
 }
 
 killed_and_resumed() {
@@ -124,7 +124,7 @@ check "a journal that was cut off" from_journal sweep torn
 check "a journal with bytes after its end" from_journal vary garbage
 
 blocks_told() {
-  sed -n 's/.*resumed with \([0-9]*\) block.*/\1/p' "$scratch/stderr"
+  sed -n 's/.*resumed with \([0-9]*\) .*/\1/p' "$scratch/stderr"
 }
 interrupted_and_resumed() {
   killed INT "$scratch/interrupted" "$scratch/vary.deck" --format csv && says "; --resume continues from what it has computed" || return 1

@@ -7,6 +7,7 @@ module memory_needs
   use beam_element, only: axial_degree, element_unknowns
   use deformation_shapes, only: bending_unknowns
   use diagnostics, only: add_error, diagnostics_t
+  use errors, only: error_of_memory
   use kinds, only: wp
   use link_cards, only: segment_count
   use models, only: accuracy_of_study, effects_static, is_four_bar, model_t, needs_frequencies, &
@@ -63,7 +64,7 @@ contains
     of_all = ""
     if (needs(most)%bytes < 0.8_wp*total) of_all = " of "//memory_text(total)//" in all"
     call add_error(diagnostics, needs(most)%place, needs(most)%what//" need "// &
-      memory_text(needs(most)%bytes)//of_all//", and "//available%clause)
+      memory_text(needs(most)%bytes)//of_all//", and "//available%clause, kind=error_of_memory)
   end subroutine check_memory
 
   !> The memory of all parts of a run.
