@@ -2,9 +2,10 @@
 !! `--resume`. The parts of a study that `--part` computes are complete journals.
 !!
 !! Blocks of results are appended when they are done, each between two equal marks, by which a
-!! block that was cut off is recognised, and one that was changed. Results are kept to the last bit:
-!! a resumed run writes the same bytes as an undisturbed one. The first lines are the deck as the program understood it, and
-!! the program that computed it: a journal of another deck or program is not used.
+!! block that was cut off or changed is recognised. Results are kept to the last bit: a resumed run
+!! writes the same bytes as an undisturbed one. The first lines are the deck as the program
+!! understood it, and the program that computed it: a journal of another deck or program is not
+!! used.
 module task_journal
   use byte_streams, only: get_integers, put_integers
   use file_system, only: file_exists, joined_path, remove_file, rename_file, shorten_file
