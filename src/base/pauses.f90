@@ -5,7 +5,7 @@ module pauses
   implicit none (type, external)
   private
 
-  public :: pause_for
+  public :: pause_for, let_others_run
 
   interface
     function c_usleep(microseconds) bind(c, name="usleep") result(status)
@@ -13,6 +13,11 @@ module pauses
       integer(c_int), value :: microseconds
       integer(c_int) :: status
     end function c_usleep
+
+    function c_sched_yield() bind(c, name="sched_yield") result(status)
+      import :: c_int
+      integer(c_int) :: status
+    end function c_sched_yield
   end interface
 
 contains
@@ -25,5 +30,13 @@ contains
 
     status = c_usleep(int(1.0e6_wp*time, c_int))
   end subroutine pause_for
+
+  !> Lets other threads have the processor first: those that wait for a lock which this one has just
+  !! left and will soon want again.
+  subroutine let_others_run()
+    integer(c_int) :: status
+
+    status = c_sched_yield()
+  end subroutine let_others_run
 
 end module pauses

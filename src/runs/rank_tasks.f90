@@ -25,8 +25,9 @@ module rank_tasks
   integer, parameter :: topic_of_commands = 1, topic_of_results = 2, topic_of_farewells = 3, &
     topic_of_tasks = 16
 
-  !> Time after which somebody without work looks for some [s].
-  real(wp), parameter :: look_again = 5.0e-5_wp
+  !> Time after which somebody without work looks for some, and the longest if there is none for a
+  !! while: a look costs some microseconds [s].
+  real(wp), parameter :: look_again = 5.0e-5_wp, look_at_last = 1.0e-3_wp
 
   !> Time that tasks handed out together take [s]. Shorter ones are handed out before the last ones
   !! are done.
@@ -80,9 +81,11 @@ contains
 
     type(helpers_t) :: helpers
     character(len=:), allocatable :: results
+    real(wp) :: pause
     integer :: rank, thread
     logical :: found, is_idle
 
+    pause = look_again
     helpers%threads = threads
     allocate (helpers%portions((rank_count() - 1)*threads), &
       helpers%waiting(2*(rank_count() - 1)*threads))
@@ -98,7 +101,8 @@ contains
       end do
       call give_tasks(pool, job, journal, helpers)
       if (was_interrupted()) exit
-      if (is_idle) call pause_for(look_again)
+      if (is_idle) call pause_for(pause)
+      pause = merge(min(2*pause, look_at_last), look_again, is_idle)
     end do
     ! Nobody waits for results that would not be used.
     do thread = 1, size(helpers%portions)
@@ -289,13 +293,16 @@ contains
     integer, intent(in) :: topic                        !! what it is about
     character(len=:), allocatable, intent(out) :: bytes !! of the message
 
+    real(wp) :: pause
     integer :: rank
     logical :: found
 
+    pause = look_again
     do
       call receive_message(topic, rank, bytes, found)
       if (found) exit
-      call pause_for(look_again)
+      call pause_for(pause)
+      pause = min(2*pause, look_at_last)
     end do
   end subroutine await_message
 

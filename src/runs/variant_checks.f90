@@ -19,6 +19,7 @@ module variant_checks
   use jobs, only: job_t
   use kinds, only: wp
   use models, only: model_t
+  use pauses, only: let_others_run
   use rank_tasks, only: help_with_tasks
   use study_parts, only: first_variant, last_variant, part_t
   use task_journal, only: journal_t
@@ -284,6 +285,7 @@ contains
         call check_variant(model, self%verdict%threads, self%verdict%available, &
           checked%diagnostics)
         !$omp end critical (one_at_a_time)
+        call let_others_run()
       end associate
     end do
   end subroutine check_block
