@@ -24,7 +24,7 @@ RANKS = os.path.join("build", "mpi", "flexmech")
 RECORD = os.path.join("build", "scaling", "record_tasks")
 SLEEPING = os.path.join("build", "scaling", "sleeping_ranks")
 VARIANTS = 10001
-SLOWER = 10  # times as long a sleeping rank sleeps: sleeps are not exact
+SLOWER = 5  # times as long a sleeping rank sleeps: sleeps are not exact
 # Root may, and ranks may be more than processors (Open MPI).
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1")
 STUDIES = (("frequencies", "REPORT   frequencies"), ("summary", "REPORT   summary of=f1,f2,f3"))
