@@ -29,7 +29,8 @@ ifndef kind
 .PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress stress-responses stress-stability accuracies linkages loads vibrations references fuzz memory scaling golden \
         install setup clean help
 
-$(if $(MPI),$(if $(filter-out yes no,$(MPI)),$(error MPI=$(MPI): yes or no)))
+# Somebody's environment may have another meaning of it.
+$(if $(findstring command,$(origin MPI)),$(if $(filter-out yes no,$(MPI)),$(error MPI=$(MPI): yes or no)))
 
 all: setup
 	$(stage) kind=release $(program) $(if $(filter yes,$(MPI)),$(of_mpi))
