@@ -20,6 +20,7 @@ module deck_runs
   use part_files, only: find_parts, read_parts, refuse_part
   use program_version, only: version_number
   use progress, only: end_progress, progress_t, show_progress, start_progress
+  use ranks, only: rank_count
   use result_failures, only: find_failures
   use result_warnings, only: find_warnings
   use run_findings, only: add_findings, findings_t, warnings_of_grade
@@ -342,10 +343,12 @@ contains
       call begin_variant_run(run, model)
     end if
     if (variant_count(deck%cards) == 1) run%progress = session%progress
-    call put_string(announced, blocks_announced)
-    call put_deck(announced, deck)
-    call put_integers(announced, [number])
-    run%announcement = announced%storage(:announced%length)
+    if (rank_count() > 1) then
+      call put_string(announced, blocks_announced)
+      call put_deck(announced, deck)
+      call put_integers(announced, [number])
+      run%announcement = announced%storage(:announced%length)
+    end if
     call compute_variant(run, threads, session%journal, number, store, error)
     if (variant_count(deck%cards) == 1) session%progress = run%progress
     call lap(watch, computing)

@@ -21,6 +21,7 @@ module variant_checks
   use models, only: model_t
   use pauses, only: let_others_run
   use rank_tasks, only: help_with_tasks
+  use ranks, only: rank_count
   use study_parts, only: first_variant, last_variant, part_t
   use task_journal, only: journal_t
   use tasks, only: run_tasks
@@ -126,12 +127,14 @@ contains
       return
     end if
     call begin_checks(job, deck_cards, threads, available, diagnostics, blocks)
-    call put_string(bytes, checks_announced)
-    call put_deck_cards(bytes, source, deck_cards)
-    call put_integers(bytes, [threads])
-    call put_reals(bytes, [available%bytes])
-    call put_string(bytes, available%clause)
-    job%announcement = bytes%storage(:bytes%length)
+    if (rank_count() > 1) then
+      call put_string(bytes, checks_announced)
+      call put_deck_cards(bytes, source, deck_cards)
+      call put_integers(bytes, [threads])
+      call put_reals(bytes, [available%bytes])
+      call put_string(bytes, available%clause)
+      job%announcement = bytes%storage(:bytes%length)
+    end if
     ! One thread: it makes texts, and gfortran 12 keeps the lengths of such results in one place for
     ! all threads.
     next = 1

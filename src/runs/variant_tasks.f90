@@ -101,10 +101,12 @@ contains
     room = max(1, min(most_at_a_time, rows_at_a_time/max(1, rows_of_variant)))
     room = max(min(count*room, most_of_all), 2*count)
     call begin_variant_job(job, room, at_a_time, threads)
-    call put_string(bytes, variants_announced)
-    call put_deck(bytes, job%deck)
-    call put_integers(bytes, [room, threads])
-    job%announcement = bytes%storage(:bytes%length)
+    if (rank_count() > 1) then
+      call put_string(bytes, variants_announced)
+      call put_deck(bytes, job%deck)
+      call put_integers(bytes, [room, threads])
+      job%announcement = bytes%storage(:bytes%length)
+    end if
     variants = variant_count(job%deck%cards)
     first = first_variant(job%part, variants)
     last = last_variant(job%part, variants)

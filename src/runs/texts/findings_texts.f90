@@ -65,11 +65,14 @@ contains
 
     type(string_t), allocatable :: severe(:), others(:)
     integer :: i
+    character(len=:), allocatable :: listed
     logical :: logged
 
     text = ""
     logged = .true.
     if (present(has_log)) logged = has_log
+    listed = ""
+    if (logged) listed = "; run.log lists them"
     severe = warnings_of_grade(findings, grade_meaningless)
     others = warnings_of_grade(findings, grade_doubt)
     do i = 1, size(severe)
@@ -80,22 +83,16 @@ contains
     end do
     if (size(others) > most_shown) then
       text = text//path//": "//to_string(size(others) - most_shown)// &
-        " more warnings"//trim(merge("; run.log lists them", "                    ", logged))// &
-        line_feed
+        " more warnings"//listed//line_feed
     end if
     do i = 1, min(findings%kept, most_shown)
       text = text//path//": error: "//failure_text(findings%failed(i))//line_feed
     end do
     if (findings%failures > most_shown) then
+      if (logged .and. untold_failures(findings) > 0) listed = "; run.log lists the first "// &
+        to_string(findings%kept)//", the tables mark all"
       text = text//path//": error: "//to_string(findings%failures - most_shown)// &
-        " more failures"
-      if (logged .and. untold_failures(findings) > 0) then
-        text = text//"; run.log lists the first "//to_string(findings%kept)// &
-          ", the tables mark all"
-      else if (logged) then
-        text = text//"; run.log lists them"
-      end if
-      text = text//line_feed
+        " more failures"//listed//line_feed
     end if
   end function findings_messages
 
