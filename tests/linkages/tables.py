@@ -7,14 +7,17 @@ class Table:
     """Rows as dictionaries; text columns stay texts, failed rows are in `failed`."""
 
     def __init__(self, path):
-        self.rows, self.failed, head = [], [], []
+        self.rows, head = [], []
         with open(path, encoding="utf-8") as file:
             lines = [line.rstrip("\n") for line in file]
-        for line in lines:
+        self.failed = [line for line in lines if line.startswith("# failed")]
+        for line in lines:  # the head; later variants have notes of their own
             if line.startswith("# failed"):
-                self.failed.append(line)
-            elif line.startswith("#"):
+                continue
+            if line.startswith("#"):
                 head.append(line[1:].split())
+            elif line.strip():
+                break
         names, units = (head[-2], head[-1]) if len(head) > 1 and len(head[-2]) == len(head[-1]) else (head[-1], [])
         self.names, self.units = names, dict(zip(names, units))
         for line in lines:

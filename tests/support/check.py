@@ -200,6 +200,14 @@ def linkages_that_vibrate():
     group.end()
 
 
+def published_cases():
+    """Decks of tests/published/ against published and exact values."""
+    group = Group("published cases, release")
+    group.lines(execute([sys.executable, "-B", os.path.join("tests", "published", "published.py"), "--program", program("release"),
+                         "--scratch", fresh("published")]))
+    group.end()
+
+
 def run_deck(group, build, deck, out):
     """Run a deck; status 1 (some rows could not be computed) is no failure here, for the tables tell."""
     run = execute([program(build), "--out", out, deck])
@@ -291,7 +299,7 @@ def main(tests):
     jobs = [(unit_tests, build, tests) for build in BUILDS]
     jobs += [(assertions, build, tests) for build in of_assertions] + [(layers,), (documents,)]
     jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS] + [(repeated_runs,)]
-    jobs += [(random_loads,), (linkages_that_vibrate,)]
+    jobs += [(random_loads,), (linkages_that_vibrate,), (published_cases,)]
     jobs += [(scripts, build) for build in BUILDS]
     # Two at once: unit tests take one processor, and decks of one speed, too.
     with multiprocessing.Pool(min(2, os.cpu_count())) as pool:
