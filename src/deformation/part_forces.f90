@@ -329,13 +329,13 @@ contains
     type(load_case_t), intent(in) :: case
     real(wp), intent(in) :: couple(:, :) !! (2, parts) on the ends of those that bend [N m]
     type(own_rates_t), intent(in) :: on_own(:)
-    real(wp), allocatable :: turns(:)
+    real(wp) :: turns(count(linkage%drives%is_free))
 
     integer :: k
 
+    turns = 0.0_wp
     do k = 1, size(links)
       if (.not. allocated(on_own(k)%rate)) cycle
-      if (.not. allocated(turns)) allocate (turns(size(on_own(k)%rate, 1)), source=0.0_wp)
       turns = turns + matmul(on_own(k)%rate, own_work(elastic%linkage, links(k), k, pose, case)) + &
         own_turns_by_couples(linkage, elastic, k, couple(:, k))
     end do

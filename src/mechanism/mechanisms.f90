@@ -10,7 +10,8 @@ module mechanisms
   use link_cards, only: has_own_mass, link_t
   use linkage_parts, only: assemble_linkage, assembly_t
   use linkages, only: is_dyad_linkage
-  use models, only: inertia_lumped, is_four_bar, link_line_density, model_t
+  use linkage_cards, only: default_accuracy
+  use models, only: inertia_lumped, is_four_bar, link_line_density, model_t, needs_beams
   use name_index, only: name_index_t, new_name_index
   use pose_types, only: pins_of_body, way_length
   use process_parts, only: process_loads
@@ -125,7 +126,8 @@ contains
     logical :: beams
     integer :: i
 
-    beams = any(.not. links%rigid) .and. all(links%rigid .or. is_solid(links))
+    beams = (any(.not. links%rigid) .or. needs_beams(model)) .and. all(links%rigid .or. &
+      is_solid(links))
     allocate (mechanism%beams(merge(size(links), 0, beams)))
     do i = 1, size(links)
       if (.not. is_solid(links(i))) cycle
@@ -169,6 +171,8 @@ contains
       if (model%inertia == inertia_lumped .and. .not. has_own_mass(links(i))) &
         mechanism%load_elements(i) = elements(i)
     end do
+    ! Rigid links have no elements, and what they swing on is solved to all digits.
+    if (all(links%rigid)) mechanism%accuracy = default_accuracy
     if (.not. is_dyad_linkage(mechanism%linkage)) return
     if (.not. any(links%mesh > 0) .or. any(links%mesh == 0 .and. .not. links%rigid)) return
     mechanism%mesh = new_beam_mesh(mechanism%linkage, elements, order, &

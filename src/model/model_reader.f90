@@ -116,6 +116,9 @@ contains
       allocate (model%meshes(1))
       call set_default_mesh(model%meshes(1))
     end if
+    ! Rigid links have no more modes than freedoms.
+    if (model%modes_word%line == 0 .and. all(model%links%rigid)) model%modes = &
+      max(1, min(model%modes, count(model%drives%is_free)))
     call check_required(cards, reports, diagnostics, model)
     call check_names(diagnostics, model)
     call check_bodies(diagnostics, model)

@@ -122,7 +122,7 @@ contains
     associate (modes => demand%modes)
       part_bound = share*demand%bound
       chosen = sample_states(positions, demand%states)
-      bending = count(linkage%bodies%bends)
+      bending = max(1, count(linkage%bodies%bends))
       do b = 1, size(beams)
         pieces = size(pieces_of(linkage%bodies(b))) - 1
         highest(b) = highest_degrees(pieces, modes, bending, beams(b)%shear_stiffness > 0.0_wp)
@@ -139,6 +139,7 @@ contains
           guessed_degrees(waves_in(linkage%bodies(b), beams(b), sample, b), part_bound, highest(b))
       end do
       do while (unknowns_of(degrees, linkage%bodies%bends) < modes + spare_unknowns)
+        if (.not. any(linkage%bodies%bends)) exit
         do b = 1, size(beams)
           degrees(b)%across = degrees(b)%across + 1
         end do

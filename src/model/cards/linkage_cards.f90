@@ -13,7 +13,7 @@ module linkage_cards
   private
 
   public :: ground_t, pin_mass_t, mesh_t
-  public :: read_ground, read_pin_mass, read_mesh, set_default_mesh
+  public :: read_ground, read_pin_mass, read_mesh, set_default_mesh, default_accuracy
 
   !> A fixed pivot.
   type :: ground_t
