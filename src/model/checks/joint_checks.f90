@@ -4,7 +4,7 @@ module joint_checks
   use joint_cards, only: slider_t, weld_t
   use kinds, only: wp
   use link_shapes, only: find_drawn_pin
-  use models, only: bends_links, model_t
+  use models, only: model_t
   use name_checks, only: look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: suggestion
@@ -18,8 +18,8 @@ module joint_checks
 contains
 
   !> Looks up what these cards name. Errors: an unknown pin, link or guide, a PIN of a ground pivot,
-  !! a weld of a link that is not at the pin, of one link twice, of all links at a pin where nothing
-  !! bends, or of links that are not in the drawing, a guide with the name of a link where either
+  !! a weld of a link that is not at the pin, of one link twice, or of links that are not in the
+  !! drawing, a guide with the name of a link where either
   !! may stand, a block on its own link or twice on one, a fixed one, an inertia that cannot turn.
   pure subroutine check_joints(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
@@ -37,7 +37,7 @@ contains
     call check_drawing(diagnostics, model, links, pins, grounds)
     do i = 1, size(model%welds)
       weld = model%welds(i)
-      call find_weld(diagnostics, model, links, pins, grounds, weld)
+      call find_weld(diagnostics, model, links, pins, weld)
       model%welds(i) = weld
     end do
     do i = 1, size(model%sliders)
@@ -111,10 +111,10 @@ contains
   end subroutine check_drawing
 
   !> Looks up the links of a weld.
-  pure subroutine find_weld(diagnostics, model, links, pins, grounds, weld)
+  pure subroutine find_weld(diagnostics, model, links, pins, weld)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
-    type(name_index_t), intent(in) :: links, pins, grounds
+    type(name_index_t), intent(in) :: links, pins
     type(weld_t), intent(inout) :: weld
 
     integer :: i, k
@@ -141,39 +141,8 @@ contains
       end associate
     end do
     if (.not. known .or. any(weld%link == 0)) return
-    ! Links that bend may differ in section, and branch.
-    if (leaves_joint(model, grounds, weld) .or. bends_links(model) .and. any(.not. &
-      model%links(weld%link)%rigid)) then
-      call require_drawn_weld(diagnostics, model, weld)
-    else
-      call add_error(diagnostics, weld%pin, "weld of all links at pin '"//weld%pin%text// &
-        "' leaves no joint; one LINK that names the pins of all says the same")
-    end if
+    call require_drawn_weld(diagnostics, model, weld)
   end subroutine find_weld
-
-  !> Whether anything else turns at the pin of a weld: the ground, a block, another link. Else the
-  !! welded links are one.
-  pure function leaves_joint(model, grounds, weld) result(leaves)
-    type(model_t), intent(in) :: model
-    type(name_index_t), intent(in) :: grounds
-    type(weld_t), intent(in) :: weld !! whose links are known
-    logical :: leaves
-
-    integer :: i
-
-    leaves = .true.
-    if (find_name(grounds, weld%pin%text) > 0) return
-    do i = 1, size(model%sliders)
-      if (same_word(model%sliders(i)%pin%text, weld%pin%text)) return
-    end do
-    do i = 1, size(model%links)
-      if (any(weld%link == i)) cycle
-      ! A link whose pins cannot be read may be at this pin.
-      if (size(model%links(i)%pins) == 0) return
-      if (joins(model, i, weld%pin%text)) return
-    end do
-    leaves = .false.
-  end function leaves_joint
 
   !> The angle between welded links is that of the drawing.
   pure subroutine require_drawn_weld(diagnostics, model, weld)
