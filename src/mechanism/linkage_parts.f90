@@ -362,7 +362,7 @@ contains
     if (abs(place(2)) <= near) ends = [min(ends(1), place(1)), max(ends(2), place(1))]
   end subroutine reach
 
-  !> Links that cannot turn on a block, welds and clamps: at the angle of the drawing. Without a drawing a
+  !> Links that cannot turn on a block, welds, clamps: at the angle of the drawing. Without one a
   !! link lies along the line of its block.
   pure subroutine take_turns(model, pins, link, linkage)
     type(model_t), intent(in) :: model

@@ -160,7 +160,8 @@ contains
 
     integer :: i
 
-    is = .not. model%is_structure .and. size(model%links) == 3 .and. size(pivots(model)) == 2 .and. size(model%guides) == 0 .and. &
+    is = .not. model%is_structure .and. size(model%links) == 3 .and. &
+      size(pivots(model)) == 2 .and. size(model%guides) == 0 .and. &
       size(model%sliders) == 0 .and. size(model%welds) == 0 .and. size(model%clamps) == 0 .and. &
       size(model%drives) <= 1
     if (.not. is) return

@@ -19,8 +19,9 @@ contains
 
   !> Looks up what these cards name. Errors: an unknown pin, link or guide, a PIN of a ground pivot,
   !! a weld of a link that is not at the pin, of one link twice, or of links that are not in the
-  !! drawing, a clamp at a pin that moves or is of no link, a guide with the name of a link where either
-  !! may stand, a block on its own link or twice on one, a fixed one, an inertia that cannot turn.
+  !! drawing, a clamp at a pin that moves or is of no link, a guide with the name of a link where
+  !! either may stand, a block on its own link or twice on one, a fixed one, an inertia that cannot
+  !! turn.
   pure subroutine check_joints(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(inout) :: model             !! numbers of links and guides are set
