@@ -2,7 +2,7 @@
 # Draws every figure that the tables of one deck allow, into the folder `figures` beside them (the linkage that draws the
 # paths of points, as an animated GIF too), or animates all that moves in them, into the folder `animations`. This is the
 # command flexmech-plot; `draw_figures.sh --help` lists its options.
-# A figure of the thesis gets its number (thesis_figures.txt). The figures of the last run stay until all new ones are
+# A figure of the thesis gets its number (thesis_figures.txt). The figures of the last run stay until new ones are
 # drawn; then they go, and files that this script did not draw stay. Prints a line a figure.
 
 set -u
@@ -161,6 +161,9 @@ mkdir "$new" || fail "cannot write into $outdir"
 
 # ask WANT TABLE: see tables.awk
 ask() { awk -v want="$1" -f "$PLOTS/tables.awk" < "$2"; }
+
+# A text as gnuplot reads it, for awk.
+quoting=$(sed -n '/^function quoted/,/^}/p' "$PLOTS/tables.awk")
 
 # have TABLE [COLUMN]: it is there and has rows.
 have() {
@@ -549,8 +552,8 @@ for table in *.dat; do
     fi
 done
 if [ -n "$over" ]; then
-    law=$(sed -n "s/^DRIVE .* law=\([^ ]*\).*/\1/p" echo.deck 2> /dev/null | sed "s/'/''/g; 1q")
-    settings="$settings; law_name = '$law'"
+    law=$(sed -n "s/^DRIVE .* law=\([^ ]*\).*/\1/p" echo.deck 2> /dev/null | awk "$quoting"'NR == 1 { print quoted($0) }')
+    settings="$settings; law_name = ${law:-\"\"}"
 fi
 
 case $format in
@@ -612,8 +615,7 @@ fi
 # The plan becomes calls of the scripts, dealt out to two runs of gnuplot (starting one for each figure takes longer).
 : > "$new/draw0"
 : > "$new/draw1"
-awk -v deck="$deck" -v new="$new" -v animated="${figures#figures}" '
-    function quoted(text) { gsub(/\047/, "\047\047", text); return "\047" text "\047" }
+awk -v deck="$deck" -v new="$new" -v animated="${figures#figures}" "$quoting"'
     NR == FNR {
         if ($1 != deck || animated) next
         number[$2] = $3
@@ -627,20 +629,33 @@ awk -v deck="$deck" -v new="$new" -v animated="${figures#figures}" '
         if (!(name in file)) file[name] = name
         call = "call " quoted(ENVIRON["PLOTS"] "/" part[2]) " " quoted(part[3]) " " quoted(new "/" file[name])
         for (i = 4; i <= n; i++) call = call " " quoted(part[i])
-        print call, quoted(number[name]), quoted(remark[name]) > (new "/draw" (FNR % 2))
-        print file[name] > (new "/names")
+        run = FNR % 2
+        print "set print " quoted(new "/at" run) "; print " ++calls[run] "; set print; " call, quoted(number[name]), quoted(remark[name]) > (new "/draw" run)
+        print file[name] > (new "/names" run)
     }' "$PLOTS/thesis_figures.txt" "$new/plan" || fail 'awk failed'
 
+# draw_all RUN SETTINGS: the calls of a run. Where one fails gnuplot ends, and begins again behind it.
 # The scripts are UTF-8; in the C locale gnuplot warns about every degree sign.
-# It counts the pictures of an animation on standard error.
-LC_ALL=C.UTF-8 gnuplot -e "$settings; fallback_told = 1" "$new/draw0" 2> "$new/told0" &
+draw_all() {
+    done_calls=0
+    while ! tail -n +$((done_calls + 1)) "$new/draw$1" | LC_ALL=C.UTF-8 gnuplot -e "$2" - 2>> "$new/told$1"; do
+        failed_call=$(cat "$new/at$1" 2> /dev/null) && [ "$failed_call" -gt $done_calls ] || return 1
+        done_calls=$failed_call
+        sed -n "${failed_call}p" "$new/names$1" >> "$new/undrawn$1"
+    done
+}
+draw_all 0 "$settings; fallback_told = 1" &
 first=$!
-LC_ALL=C.UTF-8 gnuplot -e "$settings" "$new/draw1" 2> "$new/told1"
+draw_all 1 "$settings"
 second_status=$?
 wait "$first"
 first_status=$?
+# It counts the pictures of an animation on standard error.
 sed '/^[0-9]* frames in animation sequence$/d' "$new/told0" "$new/told1" >&2
-[ $first_status -eq 0 ] && [ $second_status -eq 0 ] || fail "gnuplot failed: $outdir/$figures is left as it was"
+sort "$new"/names? > "$new/sorted"
+cat "$new"/undrawn? 2> /dev/null | sort > "$new/undrawn"
+[ $first_status -eq 0 ] && [ $second_status -eq 0 ] && ! cmp -s "$new/sorted" "$new/undrawn" ||
+    fail "gnuplot failed: $outdir/$figures is left as it was"
 
 mkdir -p $figures || fail "cannot write into $outdir/$figures"
 if [ -f $figures/drawn.txt ]; then
@@ -652,8 +667,8 @@ if [ -f $figures/drawn.txt ]; then
     done < $figures/drawn.txt
 fi
 echo '# Drawn by draw_figures.sh, which removes these files when it draws again.' > "$new/drawn.txt"
-sort "$new/names" > "$new/sorted"
 while read -r name; do
+    ! grep -qxF -e "$name" "$new/undrawn" || continue
     drawn=
     for ending in png svg pdf gif; do
         [ -s "$new/$name.$ending" ] || continue
@@ -661,9 +676,10 @@ while read -r name; do
         echo "$drawn" >> "$new/drawn.txt"
         mv -f "$new/$drawn" $figures/ || fail "cannot write into $outdir/$figures"
     done
-    [ -n "$drawn" ] || fail "gnuplot wrote no $name"
+    [ -n "$drawn" ] || echo "$name" >> "$new/undrawn"
 done < "$new/sorted"
 cp "$new/drawn.txt" $figures/drawn.txt || fail "cannot write into $outdir/$figures"
 sed -n "/^#/!p" $figures/drawn.txt | while read -r name; do
     printf '%s/%s/%s\n' "$outdir" $figures "$name"
 done
+[ ! -s "$new/undrawn" ] || fail "not drawn, since gnuplot failed: $(sort -u "$new/undrawn" | sed "s|^|$outdir/$figures/|" | paste -s -d' ' -)"

@@ -7,18 +7,22 @@ table = ARG1; out = ARG2; table_of_drives = ARG3; figure = argument(4); remark =
 eval answer(table_of_drives, "facts")
 drive_names = names_in(table_of_drives, "drive")
 n_drives = words(drive_names)
-is_force(k) = system(sprintf("awk '!/^#/ && $2 == \"%s\" && $4 == \"peak_force\" && $3 == \"-\" { print 1; exit }' ", word(drive_names, k)).quoted(table)) eq "1"
-unit_in(k, quantity) = system(sprintf("awk '!/^#/ && $2 == \"%s\" && $3 == \"-\" && $4 == \"%s\" { print $6; exit }' ", word(drive_names, k), quantity).quoted(table))
+rows_told(program, path) = "awk ".quoted(program)." ".quoted(path)
+is_force(k) = system(rows_told(sprintf("!/^#/ && $2 == \"%s\" && $4 == \"peak_force\" && $3 == \"-\" { print 1; exit }", word(drive_names, k)), table)) eq "1"
+unit_in(k, quantity) = system(rows_told(sprintf("!/^#/ && $2 == \"%s\" && $3 == \"-\" && $4 == \"%s\" { print $6; exit }", \
+    word(drive_names, k), quantity), table))
 sized(k) = is_force(k) ? "force" : "torque"
 headline = numbered(figure, "Torque against speed of the drives over the cycle")
 note = "curve: at the positions of drive.dat; bars: peak, rms (with both signs) and mean over the whole cycle"
 
 # Rate and torque of a drive at all positions, an empty line between speeds; then a value of every speed as a bar across, with both
 # signs as two.
-drive_rows(k) = sprintf("< awk '!/^#/ && $3 == \"%s\" { if (NR > 1 && $1 != last) print \"\"; last = $1; print $5, $6 }' ", word(drive_names, k)).quoted(table_of_drives)
-value_rows(k, quantity, both) = sprintf("< awk '!/^#/ && $2 == \"%s\" && $3 == \"-\" { ", word(drive_names, k)).\
+drive_rows(k) = "< ".rows_told(sprintf("!/^#/ && $3 == \"%s\" { if (NR > 1 && $1 != last) print \"\"; last = $1; print $5, $6 }", \
+    word(drive_names, k)), table_of_drives)
+value_rows(k, quantity, both) = "< ".rows_told(sprintf("!/^#/ && $2 == \"%s\" && $3 == \"-\" { ", word(drive_names, k)).\
     sprintf("if ($4 == \"%s\") value = $5; if ($4 == \"rate\") for (sign = 1; sign >= (%d ? -1 : 1); sign -= 2) ", quantity, both).\
-    sprintf("{ if (made++) print \"\"; for (i = 0; i < %d; i++) print $5 + %.9g*(2*i/%d - 1), sign*value } }' ", most_rows, bar, larger(1, most_rows - 1)).quoted(table)
+    sprintf("{ if (made++) print \"\"; for (i = 0; i < %d; i++) print $5 + %.9g*(2*i/%d - 1), sign*value } }", \
+        most_rows, bar, larger(1, most_rows - 1)), table)
 # A bar has as many points as the curve, whose marks panels.gp counts.
 bar = 0.0
 most_rows = 2

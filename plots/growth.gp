@@ -21,7 +21,8 @@ if (has_intervals) {
 } else { rows = ""; number = 0 }
 if (high_growth_all <= 0) { high_growth_all = 0.01 }
 headline = numbered(figure, "Growth of free vibrations in a turn of the crank")
-note = has_intervals ? "filled: intervals of instability, from edge to edge, as high as their largest growth" : ""
+note = has_intervals ? "filled: intervals of instability, from edge to edge, as high as their largest growth" \
+    : high_growth > 1e-9 ? "" : "no vibration grows at any of these speeds"
 kinds = "flip fold combination"
 names = "\"flip (ρ = −1)\" \"fold (ρ = 1)\" combination"
 fill(k) = word("#0060A8 #C04000 #007A5A", k)
@@ -41,8 +42,9 @@ middle(j) = 0.5*(word(rows, 6*j - 5) + word(rows, 6*j - 4))
 half(j) = 0.5*abs(word(rows, 6*j - 4) - word(rows, 6*j - 5))
 peak(j) = word(rows, 6*j - 1) + 0.0
 kind_of(j) = word(rows, 6*j - 3) eq "flip" ? 1 : word(rows, 6*j - 3) eq "fold" ? 2 : 3
+# Of a plot without a curve gnuplot 5.4 evaluates what is behind its loop all the same.
 set table $ARCS
-plot for [j=1:number] middle(j) + half(j)*cos(t), peak(j)*sin(t)
+if (number > 0) { plot for [j=1:number] middle(j) + half(j)*cos(t), peak(j)*sin(t) } else { plot NaN, NaN }
 unset table
 unset parametric
 # Modes that meet stand above the higher intervals that have room.

@@ -37,6 +37,8 @@ FILENAME ~ /echo\.deck$/ {
     sub(/ *!.*/, "")
     if ($1 == "WELD") apart[$2] -= NF - 3
     if ($1 == "SLIDER" && NF >= 4 && $4 !~ /=/) apart[$2]--
+    if ($1 == "CLAMP" && NF > 2) clamp($3, $2)
+    if ($1 == "CLAMP" && NF == 2) for (name in places) clamp(name, $2)
     if ($1 != "DRIVE") next
     for (i = 3; i <= NF; i++) if ($i == "free") next
     if ($3 == "against") hold($2, $4)
@@ -74,11 +76,11 @@ function is_wanted(crank,    i) {
     return 0
 }
 
-# Drives that are not free hold what they drive.
-function clamp(name,    k, p) {
+# Drives that are not free hold what they drive, at its ground pivot; clamps hold links at theirs.
+function clamp(name, pin,    k, p) {
     for (k = 1; k <= places[name]; k++) {
         p = place_of[name, k]
-        if (!(p in is_ground) || p in clamped) continue
+        if (!(p in is_ground) || p in clamped || pin != "" && p != pin) continue
         clamped[p] = name ""
         apart[p]--
         clamp_at[++clamps] = p

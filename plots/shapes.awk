@@ -394,6 +394,4 @@ function print_facts(    i, k, text) {
     print "EOD"
 }
 
-function quoted(text) { gsub(/'/, "''", text); return "'" text "'" }
-
 function word_of(list, i,    part) { split(list, part, " "); return part[i] }

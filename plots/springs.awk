@@ -61,6 +61,16 @@ function print_springs(    s, kinds, names) {
         kinds = kinds " " spring_kind(s)
         names = names " \"" spring_name[s] "\""
     }
-    gsub(/\047/, "\047\047", names)
-    printf "springs = %d; spring_kinds = \"%s\"; spring_names = \047%s\047\n", springs, substr(kinds, 2), names
+    printf "springs = %d; spring_kinds = \"%s\"; spring_names = %s\n", springs, substr(kinds, 2), quoted(names)
+}
+
+# A text as gnuplot reads it: within apostrophes, or, where it has one itself (gnuplot 5.4 misreads two of them), within quotation marks
+# with what means something there by its octal number.
+function quoted(text) {
+    if (text !~ /\047/) return "\047" text "\047"
+    gsub(/\\/, "\\\\134", text)
+    gsub(/"/, "\\\\042", text)
+    gsub(/`/, "\\\\140", text)
+    gsub(/@/, "\\\\100", text)
+    return "\"" text "\""
 }

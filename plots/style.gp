@@ -281,8 +281,9 @@ axis_title(text, base, length) = sprintf("title_font = %d; ", title_lines(text, 
     sprintf(" at screen across(%g), up(%g) center rotate by 90 noenhanced font point_size(title_font)", \
         14 + 17*title_lines(text, length), base + 0.5*length)
 quoted_twice(text) = "\"".escaped(text)."\""
-escaped(text) = text eq "" ? "" : (text[1:1] eq "\n" ? "\\n" : text[1:1] eq "\\" || text[1:1] eq "\"" ? "\\".text[1:1] : text[1:1])\
+escaped(text) = text eq "" ? "" : (text[1:1] eq "\n" ? "\\n" : strstrt("\\\"\140@", text[1:1]) > 0 ? octal(text[1:1]) : text[1:1])\
     .escaped(text[2:*])
+octal(letter) = "\\".word("134 042 140 100", strstrt("\\\"\140@", letter))
 
 # Of the panels of panels.gp: whether one has a logarithmic axis, what its axis takes in besides the curves, what is done before it is
 # drawn, and parts of its plot command below and above the curves, a comma behind each, with their entries of the legend, a comma before each.

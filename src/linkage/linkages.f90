@@ -15,7 +15,7 @@ module linkages
     drawing_t, equation_t, group_t, path_t, shaft_t
   public :: new_four_bar, mobility, reference_point, is_dyad_linkage, cross, normal_to, turned, &
     turned_back
-  public :: drives_angle, drives_slider, drives_length
+  public :: drives_nothing, drives_angle, drives_slider, drives_length
   public :: demands_length, demands_angle, demands_line, demands_turn, demands_drive
   public :: groups_dyad, groups_carried, groups_on_line, groups_through_pin, groups_two_lines, &
     groups_cross_slide, groups_turned, groups_spanned, groups_placed, groups_by_newton, &
@@ -23,7 +23,8 @@ module linkages
 
   !> What a drive gives: the angle of a body, the place of a slider along its line, the length of a
   !! body.
-  integer, parameter :: drives_angle = 1, drives_slider = 2, drives_length = 3
+  integer, parameter :: drives_nothing = 0, drives_angle = 1, drives_slider = 2, &
+    drives_length = 3
 
   !> What an equation demands.
   integer, parameter :: demands_length = 1, demands_angle = 2, demands_line = 3, demands_turn = 4, &
@@ -76,6 +77,8 @@ module linkages
     real(wp) :: rotary_inertia = 0.0_wp   !! ρI of its cross-sections per length [kg m];
                                           !! 0: neglected
     logical :: bends = .true.             !! as a beam; else rigid
+    logical :: may_brace = .false.        !! it is a beam, which may join two pins that it does not
+                                          !! move: ground pivots, or pins of one other body
     integer, allocatable :: corners(:)    !! pins in their order along the axis of one that bends
                                           !! and is no straight way from its first to its last pin:
                                           !! straight from each to the next, which are welded there;
@@ -113,7 +116,8 @@ module linkages
 
   !> An input. Its coordinate is `ratio*c + phase` with the coordinate c of the first one.
   type :: drive_t
-    integer :: kind = drives_angle    !! one of the drives_… constants
+    integer :: kind = drives_angle    !! one of the drives_… constants; drives_nothing of the first
+                                      !! one of a structure
     integer :: body = 0               !! that turns, or whose length changes
     integer :: against = 0            !! body from which its angle is measured; 0: the ground
     integer :: slider = 0             !! that is moved

@@ -5,7 +5,8 @@ module plan_iterations
   use body_axes, only: other_pin, rebase
   use group_equations, only: unknowns_of
   use linkages, only: demands_angle, demands_drive, demands_length, demands_line, demands_turn, &
-    drives_angle, drives_length, drives_slider, equation_t, group_t, groups_by_newton, linkage_t
+    drives_angle, drives_length, drives_nothing, drives_slider, equation_t, group_t, &
+    groups_by_newton, linkage_t
   use plan_equations, only: append_equation, drive_equation, drive_of_length, is_used, &
     line_equation, pin_equation, turn_equation
   use plan_problems, only: new_problem, plan_problem_t, problem_not_drawn, problem_too_free
@@ -89,7 +90,8 @@ contains
     np = size(pins)
     problem = new_problem(problem_too_free, pack(pins, [(matching%is_loose(2*i - 1) .or. &
       matching%is_loose(2*i), i=1, np)]), pack(bodies, matching%is_loose(2*np + 1:)))
-    problem%mobility = count(matching%equation_of == 0) + size(linkage%drives)
+    problem%mobility = count(matching%equation_of == 0) + count(linkage%drives%kind /= &
+      drives_nothing)
   end function what_is_free
 
   !> The equations matched with the unknowns of a part.

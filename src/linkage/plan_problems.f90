@@ -63,7 +63,8 @@ contains
     end associate
   end subroutine check_drive
 
-  !> A body has one ground pivot at most, and one pin at most in common with any other.
+  !> A body has one ground pivot at most, and one pin at most in common with any other, unless it
+  !! is a beam.
   pure subroutine check_body(linkage, number, problem)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: number !! of the body
@@ -74,14 +75,15 @@ contains
     integer :: c, i
 
     pins = pins_of_body(linkage%bodies(number))
-    if (count(linkage%is_ground(pins)) >= 2) then
+    if (count(linkage%is_ground(pins)) >= 2 .and. .not. linkage%bodies(number)%may_brace) then
       problem = new_problem(problem_braced, pack(pins, linkage%is_ground(pins)), [number])
       return
     end if
     do c = 1, number - 1
       others = pins_of_body(linkage%bodies(c))
       is_common = [(any(others == pins(i)), i=1, size(pins))]
-      if (count(is_common) < 2) cycle
+      if (count(is_common) < 2 .or. linkage%bodies(number)%may_brace .or. &
+        linkage%bodies(c)%may_brace) cycle
       problem = new_problem(problem_braced, pack(pins, is_common), [number, c])
       ! The smaller one is the brace.
       if (size(others) < size(pins)) problem%bodies = [c, number]

@@ -1,6 +1,7 @@
 !> What a plan has placed so far, what follows from that, and the groups that it adds.
 module plan_progress
-  use linkages, only: demands_angle, demands_length, group_t, groups_carried, linkage_t
+  use linkages, only: demands_angle, demands_length, drives_nothing, group_t, groups_carried, &
+    linkage_t
   use plan_equations, only: append_equation, is_used, pin_equation
   use pose_types, only: pins_of_body
   implicit none (type, external)
@@ -31,7 +32,7 @@ contains
     done%body = .false.
     done%slider = .false.
     done%turn = .false.
-    done%drive = .false.
+    done%drive = linkage%drives%kind == drives_nothing
     allocate (done%order(0))
   end function new_progress
 

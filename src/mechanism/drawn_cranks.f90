@@ -29,6 +29,8 @@ contains
     real(wp) :: misfit, least
     integer :: turns, nearest
 
+    crank = 0.0_wp
+    if (model%is_structure) return
     ! The drive is off by the coordinate that is sought.
     pose = drawn_pose(linkage, [0.0_wp, 0.0_wp])
     crank = misfit_of(linkage, equation_t(demands_drive, number=1), pose, [0.0_wp, 0.0_wp], 0.0_wp)

@@ -12,7 +12,8 @@ module linkage_parts
   use link_cards, only: has_own_mass, segment_count
   use link_shapes, only: find_drawn_link, find_drawn_pin, find_link_shape
   use linkage_paths, only: follow_path
-  use linkages, only: body_t, drives_angle, drives_length, drives_slider, linkage_t
+  use linkages, only: body_t, drives_angle, drives_length, drives_nothing, drives_slider, &
+    linkage_t
   use models, only: is_four_bar, is_pin, model_t
   use name_index, only: find_name, name_index_t, new_name_index
   use plan_problems, only: plan_problem_t
@@ -228,6 +229,7 @@ contains
         places(:, 2) = [body%length, 0.0_wp]
       end if
       body%bends = .not. link%rigid
+      body%may_brace = body%bends .and. link%section > 0
       allocate (body%lumps(0), body%further(size(link%pins) - 2 + size(points)))
       do i = 3, size(link%pins)
         body%further(i - 2)%pin = find_name(pins, link%pins(i)%text)
@@ -360,7 +362,7 @@ contains
     if (abs(place(2)) <= near) ends = [min(ends(1), place(1)), max(ends(2), place(1))]
   end subroutine reach
 
-  !> Links that cannot turn on a block, and welds: at the angle of the drawing. Without a drawing a
+  !> Links that cannot turn on a block, welds, clamps: at the angle of the drawing. Without one a
   !! link lies along the line of its block.
   pure subroutine take_turns(model, pins, link, linkage)
     type(model_t), intent(in) :: model
@@ -373,6 +375,9 @@ contains
     turns = count(model%sliders%turned_link > 0)
     do i = 1, size(model%welds)
       turns = turns + max(0, size(model%welds(i)%link) - 1)
+    end do
+    do i = 1, size(model%clamps)
+      turns = turns + size(model%clamps(i)%link)
     end do
     allocate (linkage%turns(turns))
     turns = 0
@@ -402,6 +407,14 @@ contains
         linkage%turns(turns)%pin = find_name(pins, model%welds(i)%pin%text)
         linkage%turns(turns)%relative = angle_between(drawn_axis(model, model%welds(i)%link(1)), &
           drawn_axis(model, model%welds(i)%link(k)))
+      end do
+    end do
+    do i = 1, size(model%clamps)
+      do k = 1, size(model%clamps(i)%link)
+        turns = turns + 1
+        linkage%turns(turns)%body = findloc(link, model%clamps(i)%link(k), dim=1)
+        linkage%turns(turns)%pin = find_name(pins, model%clamps(i)%pin%text)
+        linkage%turns(turns)%relative = drawn_axis(model, model%clamps(i)%link(k))
       end do
     end do
   end subroutine take_turns
@@ -444,6 +457,11 @@ contains
     real(wp) :: unit
     integer :: i
 
+    if (model%is_structure) then
+      allocate (linkage%drives(1))
+      linkage%drives(1)%kind = drives_nothing
+      return
+    end if
     allocate (linkage%drives(size(model%drives)))
     do i = 1, size(model%drives)
       associate (card => model%drives(i), drive => linkage%drives(i))

@@ -14,7 +14,7 @@ module model_reader
   use errors, only: error_of_writing
   use four_bar_branches, only: find_four_bar_branch
   use friction_checks, only: check_frictions, read_frictions
-  use joint_cards, only: read_guide, read_pin, read_slider, read_weld
+  use joint_cards, only: read_clamp, read_guide, read_pin, read_slider, read_weld
   use joint_checks, only: check_joints
   use kinds, only: wp
   use law_cards, only: read_law, read_time
@@ -37,13 +37,14 @@ module model_reader
   use report_cards, only: read_report
   use report_kinds, only: kind_of_linkage, report_kind_t, table_kind_t
   use request_cards, only: read_crank, read_modes, read_option, read_speed, read_title
-  use request_checks, only: check_requests, check_required
+  use request_checks, only: check_requests, check_required, has_card
   use response_cards, only: is_response_form, read_damping, read_gauge, read_omitted_terms, &
     response_form
   use response_checks, only: find_dampings, find_gauges
   use sections, only: read_section
   use shear, only: check_shear
   use spelling, only: suggestion
+  use structure_checks, only: check_structure, describes_structure, take_structure
   use summary_needs, only: take_needs
   use spring_checks, only: check_springs, read_springs
   use table_cards, only: check_tables
@@ -99,6 +100,9 @@ contains
     call refuse_second_cards(cards, diagnostics)
     call read_system(cards, diagnostics, model%units, model%outputs, chooses_rate)
     call read_model_cards(cards, reports, diagnostics, model)
+    if (.not. any([has_card(cards, "DRIVE"), has_card(cards, "CRANK"), has_card(cards, "TIME"), &
+      has_card(cards, "MOTOR"), has_card(cards, "LAW"), .not. describes_structure(model)])) &
+      call take_structure(model)
     call read_springs(cards, diagnostics, model)
     call read_frictions(cards, diagnostics, model)
     call check_tables(cards, diagnostics)
@@ -120,6 +124,7 @@ contains
     if (model%modes_word%line == 0 .and. all(model%links%rigid)) model%modes = &
       max(1, min(model%modes, count(model%drives%is_free)))
     call check_required(cards, reports, diagnostics, model)
+    call check_structure(diagnostics, model)
     call check_names(diagnostics, model)
     call check_bodies(diagnostics, model)
     call find_processes(cards, diagnostics, model)
@@ -360,6 +365,7 @@ contains
     allocate (model%masses(number_of(cards, "MASS")), model%points(number_of(cards, "POINT")), &
       model%dampings(number_of(cards, "DAMPING")), model%gauges(number_of(cards, "GAUGE")))
     allocate (model%drawn_pins(number_of(cards, "PIN")), model%welds(number_of(cards, "WELD")), &
+      model%clamps(number_of(cards, "CLAMP")), &
       model%guides(number_of(cards, "GUIDE")), model%sliders(number_of(cards, "SLIDER")), &
       model%drives(number_of(cards, "DRIVE")), model%laws(number_of(cards, "LAW")))
     allocate (model%branches(0), model%shafts(0), model%forces(0), model%torques(0), &
@@ -453,6 +459,8 @@ contains
         call read_pin(card, system, diagnostics, model%drawn_pins(number))
       case ("WELD")
         call read_weld(card, diagnostics, model%welds(number))
+      case ("CLAMP")
+        call read_clamp(card, diagnostics, model%clamps(number))
       case ("GUIDE")
         call read_guide(card, system, diagnostics, model%guides(number))
       case ("SLIDER")

@@ -55,6 +55,7 @@ module models
     type(drawn_pin_t), allocatable :: drawn_pins(:) !! PIN cards
     type(link_t), allocatable :: links(:)
     type(weld_t), allocatable :: welds(:)
+    type(weld_t), allocatable :: clamps(:)      !! CLAMP cards: links that turn with the ground
     type(guide_t), allocatable :: guides(:)
     type(slider_t), allocatable :: sliders(:)
     type(pin_mass_t), allocatable :: pin_masses(:)
@@ -76,6 +77,7 @@ module models
     type(shaft_card_t), allocatable :: shafts(:) !! its balance shafts
     type(law_card_t), allocatable :: laws(:)    !! LAW cards
     type(drive_t), allocatable :: drives(:)     !! the first one's positions are those of CRANK
+    logical :: is_structure = .false.           !! without a drive, by intent: one position
     type(token_t) :: drive                      !! first word of the first DRIVE card: the driven
                                                 !! link, or the pin of the driven slider
     integer :: branch = branch_open             !! of a four-bar: branch_open or branch_crossed
@@ -158,8 +160,10 @@ contains
 
     integer :: i
 
-    is = size(model%links) == 3 .and. size(pivots(model)) == 2 .and. size(model%guides) == 0 .and. &
-      size(model%sliders) == 0 .and. size(model%welds) == 0 .and. size(model%drives) <= 1
+    is = .not. model%is_structure .and. size(model%links) == 3 .and. &
+      size(pivots(model)) == 2 .and. size(model%guides) == 0 .and. &
+      size(model%sliders) == 0 .and. size(model%welds) == 0 .and. size(model%clamps) == 0 .and. &
+      size(model%drives) <= 1
     if (.not. is) return
     do i = 1, size(model%drives)
       is = is .and. model%drives(i)%kind <= drive_angle .and. .not. model%drives(i)%is_free

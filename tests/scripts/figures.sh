@@ -530,6 +530,54 @@ drawn_shapes() {
     { cat "$scratch/told"; return 1; }
 }
 
+# Titles with all that means something to gnuplot, awk or the shell are written as they are, in headings and as names of springs.
+quoted_titles() {
+  cat >"$scratch/titles" <<'END_OF_TITLES'
+'Slider' of 1920
+it''s "two"
+''
+a\slash \n \\
+`date` @x %s %d
+{a_b}^c @d ~e{f}
+it's `date` @x "q" \n
+ends with '
+END_OF_TITLES
+  number=0
+  while IFS= read -r title; do
+    number=$((number + 1))
+    { printf 'TITLE    %s\n' "$title" && sed '/^TITLE/d; /^REPORT/d; /^END/d' inputs/kinematics.deck && echo "REPORT kinematics"; } \
+      >"$scratch/title$number.deck"
+    run 0 --quiet --out "$scratch/out" "$scratch/title$number.deck" || return 1
+    timeout 60 sh plots/draw_figures.sh --format svg "$scratch/out/title$number" >"$scratch/stdout" 2>"$scratch/stderr" ||
+      { echo "$title:"; head -c 300 "$scratch/stderr"; return 1; }
+    sed 's/<[^>]*>//g' "$scratch/out/title$number/figures/kinematics_angles.svg" | sed 's/^[ 	]*//' | grep -qxF -e "$title" ||
+      { echo "no heading '$title'"; return 1; }
+  done <"$scratch/titles"
+}
+
+# One that gnuplot cannot draw leaves the others, and is named.
+one_fails() {
+  rm -rf "$scratch/share"
+  { sed '/^END/d' inputs/kinematics.deck && echo "REPORT pins"; } >"$scratch/partly.deck"
+  cp -R plots "$scratch/share" && run 0 --quiet --out "$scratch/out" "$scratch/partly.deck" || return 1
+  for script in kinematics pin_motion; do
+    cp plots/*.gp "$scratch/share" && sed -i '1i plot no_such_thing' "$scratch/share/$script.gp" || return 1
+    FLEXMECH=$program timeout 100 sh "$scratch/share/draw_figures.sh" "$scratch/out/partly" >"$scratch/stdout" 2>"$scratch/stderr"
+    [ $? -eq 1 ] || { echo "status is not 1"; return 1; }
+    says "not drawn" && says "/figures/$script" && ! grep -q "/$script" "$scratch/stdout" || return 1
+    case $script in
+      kinematics) grep -q /pin_motion.png "$scratch/stdout" ;;
+      *) [ "$(grep -c /kinematics_ "$scratch/stdout")" -eq 3 ] ;;
+    esac || { echo "the others are not drawn:"; cat "$scratch/stdout"; return 1; }
+  done
+}
+
+# Several speeds and no interval: exponents alone, none of which grows.
+growth_without_intervals() {
+  sed 's/^SPEED.*/SPEED 10 11/; s/^MODES.*/MODES 1/; /^REPORT   intervals/d' inputs/stability.deck >"$scratch/calm.deck"
+  run 0 --quiet --out "$scratch/out" "$scratch/calm.deck" && drawn calm figures growth multipliers
+}
+
 root=$(pwd)
 
 check "figures of inputs/rigid.deck" rigid_figures
@@ -540,6 +588,9 @@ check "the elastic response is animated" response_animation
 check "links bend as in the table" bent_links
 check "critical speeds of modes" critical_speeds
 check "figures of failed rows, of one position, of names with apostrophes" odd_tables
+check "titles are written as they are" quoted_titles
+check "a figure that fails leaves the others" one_fails
+check "growth at speeds without an interval" growth_without_intervals
 check "a mode is animated" modes_swing
 check "modes of other linkages are drawn where they are held" modes_of_linkages
 check "corners of mode shapes" square_corners

@@ -81,6 +81,8 @@ module card_table
       help="a uniform link, straight from pin to pin, or a rigid body of any shape"), &
     card_kind_t("WELD", least=3, most=many, pattern="WELD pin link link ...", &
       help="these links turn together at a pin"), &
+    card_kind_t("CLAMP", least=1, most=many, pattern="CLAMP pin [link ...]", &
+      help="these links cannot turn at a GROUND pin; without names none there can"), &
     card_kind_t("GUIDE", least=3, most=3, pattern="GUIDE name x y angle=", &
       help="a fixed straight guide through a point"), &
     card_kind_t("SLIDER", least=2, most=3, pattern="SLIDER pin guide [link] [mass= inertia=]", &

@@ -1,10 +1,10 @@
-!> Checks of PIN, WELD and SLIDER cards: the pins, links and guides that they name.
+!> Checks of PIN, WELD, CLAMP and SLIDER cards: the pins, links and guides that they name.
 module joint_checks
   use diagnostics, only: add_error, diagnostics_t
   use joint_cards, only: slider_t, weld_t
   use kinds, only: wp
   use link_shapes, only: find_drawn_pin
-  use models, only: bends_links, model_t
+  use models, only: model_t
   use name_checks, only: look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: suggestion
@@ -18,9 +18,10 @@ module joint_checks
 contains
 
   !> Looks up what these cards name. Errors: an unknown pin, link or guide, a PIN of a ground pivot,
-  !! a weld of a link that is not at the pin, of one link twice, of all links at a pin where nothing
-  !! bends, or of links that are not in the drawing, a guide with the name of a link where either
-  !! may stand, a block on its own link or twice on one, a fixed one, an inertia that cannot turn.
+  !! a weld of a link that is not at the pin, of one link twice, or of links that are not in the
+  !! drawing, a clamp at a pin that moves or is of no link, a guide with the name of a link where
+  !! either may stand, a block on its own link or twice on one, a fixed one, an inertia that cannot
+  !! turn.
   pure subroutine check_joints(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(inout) :: model             !! numbers of links and guides are set
@@ -37,8 +38,13 @@ contains
     call check_drawing(diagnostics, model, links, pins, grounds)
     do i = 1, size(model%welds)
       weld = model%welds(i)
-      call find_weld(diagnostics, model, links, pins, grounds, weld)
+      call find_weld(diagnostics, model, links, pins, weld)
       model%welds(i) = weld
+    end do
+    do i = 1, size(model%clamps)
+      weld = model%clamps(i)
+      call find_clamp(diagnostics, model, links, pins, grounds, weld)
+      model%clamps(i) = weld
     end do
     do i = 1, size(model%sliders)
       slider = model%sliders(i)
@@ -111,17 +117,61 @@ contains
   end subroutine check_drawing
 
   !> Looks up the links of a weld.
-  pure subroutine find_weld(diagnostics, model, links, pins, grounds, weld)
+  pure subroutine find_weld(diagnostics, model, links, pins, weld)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
-    type(name_index_t), intent(in) :: links, pins, grounds
+    type(name_index_t), intent(in) :: links, pins
     type(weld_t), intent(inout) :: weld
 
-    integer :: i, k
     logical :: known
 
     if (size(weld%links) == 0) return
     call seek_pin(weld%pin, pins, links, diagnostics, known)
+    call find_links(diagnostics, model, links, weld, known)
+    if (.not. known .or. any(weld%link == 0)) return
+    call require_drawn(diagnostics, model, weld, "the angle between welded links is")
+  end subroutine find_weld
+
+  !> Looks up the links of a clamp; without names it has all at its pin.
+  pure subroutine find_clamp(diagnostics, model, links, pins, grounds, clamp)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: links, pins, grounds
+    type(weld_t), intent(inout) :: clamp
+
+    integer :: i
+    logical :: known
+
+    call seek_pin(clamp%pin, pins, links, diagnostics, known)
+    if (.not. known) return
+    if (find_name(grounds, clamp%pin%text) == 0) then
+      call add_error(diagnostics, clamp%pin, "a CLAMP holds links at a GROUND pin, and '"// &
+        clamp%pin%text//"' moves; expected: GROUND "//clamp%pin%text//" x y, or WELD for links "// &
+        "that turn together")
+      return
+    end if
+    if (size(clamp%links) == 0) then
+      clamp%link = pack([(i, i=1, size(model%links))], [(joins(model, i, clamp%pin%text), i=1, &
+        size(model%links))])
+      if (size(clamp%link) == 0) call add_error(diagnostics, clamp%pin, "no link is at pin '"// &
+        clamp%pin%text//"': nothing is clamped there")
+    else
+      call find_links(diagnostics, model, links, clamp, known)
+    end if
+    if (.not. known .or. any(clamp%link == 0)) return
+    call require_drawn(diagnostics, model, clamp, "the angle of a clamped link is")
+  end subroutine find_clamp
+
+  !> Looks up the links that a weld or a clamp names. `known` is whether they can be told.
+  pure subroutine find_links(diagnostics, model, links, weld, known)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: links
+    type(weld_t), intent(inout) :: weld
+    logical, intent(inout) :: known !! whether the pin is
+
+    integer :: i, k
+
     do i = 1, size(weld%links)
       associate (word => weld%links(i))
         call look_up(word, links, "link", diagnostics, weld%link(i))
@@ -140,46 +190,14 @@ contains
         end do
       end associate
     end do
-    if (.not. known .or. any(weld%link == 0)) return
-    ! Links that bend may differ in section, and branch.
-    if (leaves_joint(model, grounds, weld) .or. bends_links(model) .and. any(.not. &
-      model%links(weld%link)%rigid)) then
-      call require_drawn_weld(diagnostics, model, weld)
-    else
-      call add_error(diagnostics, weld%pin, "weld of all links at pin '"//weld%pin%text// &
-        "' leaves no joint; one LINK that names the pins of all says the same")
-    end if
-  end subroutine find_weld
+  end subroutine find_links
 
-  !> Whether anything else turns at the pin of a weld: the ground, a block, another link. Else the
-  !! welded links are one.
-  pure function leaves_joint(model, grounds, weld) result(leaves)
-    type(model_t), intent(in) :: model
-    type(name_index_t), intent(in) :: grounds
-    type(weld_t), intent(in) :: weld !! whose links are known
-    logical :: leaves
-
-    integer :: i
-
-    leaves = .true.
-    if (find_name(grounds, weld%pin%text) > 0) return
-    do i = 1, size(model%sliders)
-      if (same_word(model%sliders(i)%pin%text, weld%pin%text)) return
-    end do
-    do i = 1, size(model%links)
-      if (any(weld%link == i)) cycle
-      ! A link whose pins cannot be read may be at this pin.
-      if (size(model%links(i)%pins) == 0) return
-      if (joins(model, i, weld%pin%text)) return
-    end do
-    leaves = .false.
-  end function leaves_joint
-
-  !> The angle between welded links is that of the drawing.
-  pure subroutine require_drawn_weld(diagnostics, model, weld)
+  !> The angles of welded and of clamped links are those of the drawing.
+  pure subroutine require_drawn(diagnostics, model, weld, what)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
     type(weld_t), intent(in) :: weld
+    character(len=*), intent(in) :: what
 
     type(string_t), allocatable :: told(:)
     real(wp) :: place(2)
@@ -195,9 +213,9 @@ contains
       end associate
     end do
     if (.not. allocated(told)) return
-    call add_error(diagnostics, weld%pin, "the angle between welded links is that of the "// &
-      "drawing; expected "//pins_in_words(told))
-  end subroutine require_drawn_weld
+    call add_error(diagnostics, weld%pin, what//" that of the drawing; expected "// &
+      pins_in_words(told))
+  end subroutine require_drawn
 
   pure subroutine append_once(list, name)
     type(string_t), allocatable, intent(inout) :: list(:)

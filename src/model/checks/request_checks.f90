@@ -51,13 +51,14 @@ contains
     if (.not. has_card(cards, "DRIVE") .and. model%motor%keyword%line > 0) then
       call add_error(diagnostics, model%motor%keyword, &
         "a motor needs a driven link; expected: "//pattern_of("DRIVE"))
-    else if (.not. has_card(cards, "DRIVE")) then
+    else if (.not. has_card(cards, "DRIVE") .and. .not. model%is_structure) then
       call missing("the linkage is not driven; expected: "//pattern_of("DRIVE"))
     end if
     if (needs_positions(model) .and. has_law(model)) then
       if (.not. has_card(cards, "TIME")) call add_error(diagnostics, model%drives(1)%law, &
         "the first drive moves by a law, and there is no TIME card; expected: "//pattern_of("TIME"))
-    else if (needs_positions(model) .and. .not. has_card(cards, "CRANK")) then
+    else if (needs_positions(model) .and. .not. model%is_structure .and. .not. has_card(cards, &
+      "CRANK")) then
       call missing("there is no CRANK card; expected: "//pattern_of("CRANK"))
     end if
     ! A speed of 0, the default, is no speed for a steady state.
