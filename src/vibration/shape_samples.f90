@@ -4,9 +4,11 @@ module shape_samples
   use deflected_shape, only: shape_point
   use deformation_chain, only: chain_shape, deformation_chain_t
   use deformation_model, only: deformation_model_t
+  use elastic_linkages, only: elastic_linkage_t
   use kinds, only: wp
-  use linkages, only: linkage_t, normal_to
+  use linkages, only: cross, drives_angle, drives_slider, linkage_t, normal_to
   use pin_displacements, only: chords_t
+  use pose_types, only: pins_of_body
   use poses, only: pose_t
   use positions, only: state_t
   use reduced_shapes, only: reduced_shape_point
@@ -18,7 +20,8 @@ module shape_samples
   public :: shapes_t, sample_reduced, sample_chain, sample_nodal
 
   !> Displacements along the links in every mode, in global axes, with φᵀMφ = 1. The sign is that of
-  !! `sign_of`, whatever the method and the number of points.
+  !! `sign_of`, of parts of `going_round` or `turn_of_all`, whatever the method and the number of
+  !! points.
   type :: shapes_t
     real(wp), allocatable :: displacement(:, :, :, :) !! (x, y, rotation; points; bodies; modes)
                                                       !! [kg^-1/2, kg^-1/2, rad kg^-1/2/m]
@@ -33,10 +36,16 @@ module shape_samples
   !! be seen in a figure.
   real(wp), parameter :: at_rest = 1.0e-5_wp
 
+  !> Places along each part for the turn of all: modes have many waves.
+  integer, parameter :: fine = 65
+
+  !> Within this share displacements, and distances, count as equal.
+  real(wp), parameter :: tie = 1.0e-9_wp
+
 contains
 
   !> Shapes of a model in deformation coordinates.
-  pure subroutine sample_reduced(linkage, model, chords, pose, found, request, shapes)
+  pure subroutine sample_reduced(linkage, model, chords, pose, found, request, shapes, elastic)
     type(linkage_t), intent(in) :: linkage         !! of the structure
     type(deformation_model_t), intent(in) :: model !! its links' own deformations
     type(chords_t), intent(in) :: chords           !! at this position
@@ -44,25 +53,43 @@ contains
     type(bordered_modes_t), intent(in) :: found    !! modes at this position
     type(mode_request_t), intent(in) :: request    !! modes, points along each link
     type(shapes_t), intent(out) :: shapes          !! of the modes requested
+    type(elastic_linkage_t), intent(in), optional :: elastic !! where the links have parts
 
-    real(wp) :: at(3, size(place), size(model%links))
-    integer :: b, i, mode
+    real(wp), allocatable :: at(:, :, :)
+    real(wp) :: sign_of_mode
+    integer :: mode
 
     allocate (shapes%displacement(3, request%points, size(model%links), request%modes))
     do mode = 1, request%modes
+      shapes%displacement(:, :, :, mode) = sampled(mode, request%points)
+      at = sampled(mode, size(place))
+      if (.not. present(elastic)) then
+        sign_of_mode = sign_of(linkage, pose, at)
+      else if (abs(going_round(elastic, pose, at)) > at_rest*largest(at)) then
+        sign_of_mode = sign(1.0_wp, going_round(elastic, pose, at))
+      else
+        sign_of_mode = sign(1.0_wp, turn_of_all(elastic, pose, sampled(mode, fine)))
+      end if
+      shapes%displacement(:, :, :, mode) = sign_of_mode*shapes%displacement(:, :, :, mode)
+    end do
+
+  contains
+
+    !> A mode at evenly spaced places of every link.
+    pure function sampled(mode, points) result(at)
+      integer, intent(in) :: mode, points
+      real(wp) :: at(3, points, size(model%links))
+
+      integer :: b, i
+
       do b = 1, size(model%links)
-        do i = 1, request%points
-          shapes%displacement(:, i, b, mode) = reduced_shape_point(model%links, model%layout, &
-            chords, pose, found%vector(:, mode), b, real(i - 1, wp)/(request%points - 1))
-        end do
-        do i = 1, size(place)
+        do i = 1, points
           at(:, i, b) = reduced_shape_point(model%links, model%layout, chords, pose, &
-            found%vector(:, mode), b, place(i))
+            found%vector(:, mode), b, real(i - 1, wp)/(points - 1))
         end do
       end do
-      shapes%displacement(:, :, :, mode) = sign_of(linkage, pose, &
-        at)*shapes%displacement(:, :, :, mode)
-    end do
+    end function sampled
+
   end subroutine sample_reduced
 
   !> Shapes of a long mesh, as in `sample_reduced`.
@@ -146,12 +173,11 @@ contains
     real(wp), intent(in) :: at(:, :, :)    !! (x, y, rotation; places; bodies), before
     real(wp) :: sign_of_mode
 
-    real(wp), parameter :: tie = 1.0e-9_wp
     real(wp) :: across(size(linkage%bodies)), round
     integer :: b
 
     round = dot_product(normal_to(pose%direction(:, 1)), at(:2, at_end, 1))
-    if (abs(round) > at_rest*sqrt(maxval(sum(at(:2, :, :)**2, dim=1)))) then
+    if (abs(round) > at_rest*largest(at)) then
       sign_of_mode = sign(1.0_wp, round)
       return
     end if
@@ -162,5 +188,123 @@ contains
     b = findloc(abs(across) >= (1.0_wp - tie)*maxval(abs(across)), .true., dim=1)
     sign_of_mode = sign(1.0_wp, across(b))
   end function sign_of
+
+  !> The largest displacement.
+  pure function largest(at)
+    real(wp), intent(in) :: at(:, :, :) !! (x, y, rotation; places; bodies)
+    real(wp) :: largest
+
+    largest = sqrt(maxval(sum(at(:2, :, :)**2, dim=1)))
+  end function largest
+
+  !> How far the far end of the driven link goes round the joint of its drive, counter-clockwise,
+  !! whatever the order of its pins and however it is cut.
+  pure function going_round(elastic, pose, at) result(round)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: pose       !! of its points and parts
+    real(wp), intent(in) :: at(:, :, :)    !! (x, y, rotation; places; parts)
+    real(wp) :: round
+
+    real(wp) :: arm(2), farthest
+    integer :: i, k
+
+    round = 0.0_wp
+    farthest = 0.0_wp
+    do k = 1, size(at, 3)
+      if (.not. is_driven(elastic, k)) cycle
+      do i = 1, size(at, 2)
+        arm = arm_of(elastic, pose, k, real(i - 1, wp)/(size(at, 2) - 1))
+        if (.not. norm2(arm) > (1.0_wp + tie)*farthest) cycle
+        farthest = norm2(arm)
+        round = cross(arm, at(:2, i, k))/farthest
+      end do
+    end do
+  end function going_round
+
+  !> How all links that bend turn together about the joint of the first drive, `∫ (r − r0) × u dx`
+  !! by Simpson's rule.
+  pure function turn_of_all(elastic, pose, at) result(turn)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: pose       !! of its points and parts
+    real(wp), intent(in) :: at(:, :, :)    !! (x, y, rotation; places, odd; parts)
+    real(wp) :: turn
+
+    integer :: i, k, n
+    real(wp) :: weight
+
+    turn = 0.0_wp
+    n = size(at, 2)
+    do k = 1, size(at, 3)
+      associate (part => elastic%linkage%bodies(k))
+        if (.not. part%bends) cycle
+        do i = 1, n
+          weight = merge(4.0_wp, 2.0_wp, modulo(i, 2) == 0)
+          if (i == 1 .or. i == n) weight = 1.0_wp
+          turn = turn + weight*part%length*cross(arm_of(elastic, pose, k, real(i - 1, wp)/(n - &
+            1)), at(:2, i, k))
+        end do
+      end associate
+    end do
+  end function turn_of_all
+
+  !> From the joint of the first drive to a place of a part.
+  pure function arm_of(elastic, pose, part, share) result(arm)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: part
+    real(wp), intent(in) :: share !! of its way from end to end
+    real(wp) :: arm(2)
+
+    associate (first => pose%pin(:, elastic%linkage%bodies(part)%first_pin), &
+        last => pose%pin(:, elastic%linkage%bodies(part)%last_pin))
+      arm = first + share*(last - first) - pose%pin(:, drive_pin(elastic))
+    end associate
+  end function arm_of
+
+  !> Whether a part is of the link that the first drive turns.
+  pure function is_driven(elastic, part) result(is)
+    type(elastic_linkage_t), intent(in) :: elastic
+    integer, intent(in) :: part !! number
+    logical :: is
+
+    is = .false.
+    if (size(elastic%linkage%drives) == 0) return
+    associate (drive => elastic%linkage%drives(1))
+      is = drive%kind == drives_angle .and. elastic%body(part) == drive%body
+    end associate
+  end function is_driven
+
+  !> The pin at which the first drive acts: of a link that turns one that stands still, or that the
+  !! link has in common with the one from which its angle is measured; of a slider its own. Without
+  !! a drive the first ground pivot.
+  pure function drive_pin(elastic) result(pin)
+    type(elastic_linkage_t), intent(in) :: elastic
+    integer :: pin
+
+    integer, allocatable :: others(:)
+    integer :: i, k
+
+    pin = max(1, findloc(elastic%linkage%is_ground, .true., dim=1))
+    if (size(elastic%linkage%drives) == 0) return
+    associate (parts => elastic%linkage, drive => elastic%linkage%drives(1))
+      if (drive%kind == drives_slider) then
+        pin = parts%sliders(drive%slider)%pin
+        return
+      end if
+      allocate (others(0))
+      do k = 1, size(elastic%body)
+        if (elastic%body(k) == drive%against) others = [others, pins_of_body(parts%bodies(k))]
+      end do
+      do k = 1, size(elastic%body)
+        if (elastic%body(k) /= drive%body) cycle
+        associate (pins => pins_of_body(parts%bodies(k)))
+          do i = 1, size(pins)
+            pin = pins(i)
+            if (any(others == pin) .or. drive%against == 0 .and. parts%is_ground(pin)) return
+          end do
+        end associate
+      end do
+    end associate
+  end function drive_pin
 
 end module shape_samples
