@@ -287,6 +287,8 @@ class Machine:
             self.gauges[f"g{k}"] = (name, r.uniform(0.2, 0.8), r.choice(("left", "right")))
         a = self.keys["accuracy"]
         self.keys["reports"] = [f"{name} accuracy={a}" for name in ("response", "strains", "peaks", "torque", "validity")]
+        if r.random() < 0.7:
+            del self.keys["reports"][4]
         if not self.gauges:
             del self.keys["reports"][1]
 

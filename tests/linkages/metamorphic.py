@@ -47,7 +47,7 @@ KINDS = {
     "gauges": {"axial_strain": "s", "bending_strain": "s", "moment": "rp", "axial_force": "s", "stress": "s"},
     "peaks": {"strain": "s", "stress": "s", "deflection": "s", "power": "s"},
     "torque": {"rigid": "p", "linear": "p", "quadratic": "p", "total": "p", "power": "s"},
-    "validity": {"deflection": "s", "load": "s", "quadratic": "s", "out_of_plane": "s", "distance": "s"},
+    "validity": {"deflection": "s", "load": "s", "distance": "s"},
     "stability": {"turns": "s", "growth": "s", "signature": "w", "verdict": "w"},
     "campbell": {"least": "s", "mean": "s", "greatest": "s", "growth": "s", "verdict": "w"},
     "critical": {"excitation": "s", "amplitude": "s", "growth": "s"},
@@ -351,8 +351,10 @@ class Tables:
             key, names = self.key(row)
             place = [round(c / self.machine.size, 5) + 0.0 for c in self.back(row["x"] * self.units["x"], row["y"] * self.units["y"])]
             all_modes = near[row["speed"], row["crank"]]
-            gap = min([abs(f - row["frequency"]) / max(abs(f), 1e-9) for mode, f in all_modes.items() if mode != row["mode"]] + [1.0])
-            allowed = largest[row["speed"], row["crank"], row["mode"]] * (ROUNDING / max(gap, 1e-9) + ROUNDING)
+            # Rounding turns modes into their neighbours; that of the highest one is not there.
+            gap = min([abs(f / row["frequency"] - 1) for mode, f in all_modes.items() if mode != row["mode"] and row["frequency"]] +
+                      [0.01 if row["mode"] == max(all_modes) else 1.0])
+            allowed = largest[row["speed"], row["crank"], row["mode"]] * ROUNDING * (1 + 1 / max(gap, 1e-9))
             ux, uy = (root * u for u in self.back(row["ux"], row["uy"]))
             self.put(name, (*key, *place), {"ux": ("v", ux, allowed), "uy": ("v", uy, allowed)})
 
@@ -382,7 +384,7 @@ class Tables:
                 self.take_value(found, row, column, kind)
             for column, (kind, value, _) in found.items():
                 first = column.replace("y", "x") if column.replace("y", "x") in kinds else column
-                share = row["error"] if name != "validity" or column == "distance" else 1e-6 if column != "quadratic" else 1e-2
+                share = row["error"] if name != "validity" or column == "distance" else 1e-6
                 allowed = 0.0 if kind == "w" else share * largest.get(((row["speed"], row.get(column_of_place)), first), 0.0)
                 found[column] = (kind, value, allowed)
             self.put(name, key, found)
