@@ -114,28 +114,25 @@ contains
     if (is) is = size(elastic%ways(elastic%way(part))%cuts) > 0
   end function is_piece
 
-  !> Adds a couple on a link: of one that bends on its first way, which its pins carry.
+  !> Adds a couple on a link, spread evenly over the length of one that bends. On a straight way
+  !! that acts on the chord from end to end, however the way is divided.
   pure subroutine add_couple(elastic, body, couple, on_parts)
     type(elastic_linkage_t), intent(in) :: elastic !! at a position
     integer, intent(in) :: body                    !! number of the link
     real(wp), intent(in) :: couple                 !! [N m]
     real(wp), intent(inout) :: on_parts(:)         !! (parts) [N m]
 
-    real(wp) :: whole
-    integer :: k, first
+    integer :: first, last
 
     first = findloc(elastic%body, body, dim=1)
-    if (.not. is_piece(elastic, first)) then
+    last = findloc(elastic%body, body, dim=1, back=.true.)
+    if (first == last) then
       on_parts(first) = on_parts(first) + couple
-      return
+    else
+      associate (length => elastic%linkage%bodies(first:last)%length)
+        on_parts(first:last) = on_parts(first:last) + couple*(length/sum(length))
+      end associate
     end if
-    ! The chord of the whole way turns by the mean of those of its pieces.
-    associate (way => elastic%ways(elastic%way(first)))
-      whole = sum(elastic%linkage%bodies(first:first + size(way%cuts))%length)
-      do k = first, first + size(way%cuts)
-        on_parts(k) = on_parts(k) + couple*(elastic%linkage%bodies(k)%length/whole)
-      end do
-    end associate
   end subroutine add_couple
 
   !> The pins, and the points of links under blocks and at other cuts.

@@ -190,8 +190,8 @@ contains
     end do
   end subroutine take_field
 
-  !> Couples and forces of links: of a rigid link as they are; of one that bends its couples act on
-  !! its first way, forces at places with their moments where they are, springs on its ends.
+  !> Couples and forces of links: of a rigid link as they are; of one that bends its couples spread
+  !! over its length, forces at places with their moments where they are, springs on its ends.
   pure subroutine take_couples(linkage, pose, of_links, elastic, placed, springs, pull, parts)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose

@@ -1,6 +1,6 @@
 !> Requests on links for the response of their parts, and results of parts for the links.
 module part_requests
-  use elastic_linkages, only: elastic_linkage_t
+  use elastic_linkages, only: elastic_linkage_t, is_piece
   use kinds, only: wp
   use linkages, only: turned_back
   use moving_pieces, only: first_end, moving_ends
@@ -132,6 +132,10 @@ contains
     call join_peaks(found%largest_deflection)
     call join_largest(found%deflection)
     call join_largest(found%peak_error)
+    if (allocated(found%buckling)) then
+      if (size(found%buckling) > 0) found%buckling = found%buckling*(straight_lengths(elastic)/ &
+        elastic%linkage%bodies%length)**2
+    end if
     call join_largest(found%buckling)
     call join_largest(found%quadratic_change)
     call join_sums(found%power_lost)
@@ -194,5 +198,40 @@ contains
     end subroutine join_sums
 
   end subroutine join_parts
+
+  !> Length of the straight way of its link on which every part lies, by which it buckles as pinned:
+  !! pins along it that the link goes through straight do not end it.
+  pure function straight_lengths(elastic) result(length)
+    type(elastic_linkage_t), intent(in) :: elastic
+    real(wp) :: length(size(elastic%body)) !! (parts) [m]
+
+    ! Sine of the angle below which a corner is none: drawings are rounded.
+    real(wp), parameter :: straight = 1.0e-9_wp
+    integer :: first, k
+
+    length = elastic%linkage%bodies%length
+    first = 1
+    do k = 2, size(length) + 1
+      if (k <= size(length)) then
+        if (goes_on(k)) cycle
+      end if
+      length(first:k - 1) = sum(length(first:k - 1))
+      first = k
+    end do
+
+  contains
+
+    !> Whether a part goes on straight from the one before. Pieces between blocks have lengths of
+    !! their whole way.
+    pure function goes_on(k) result(does)
+      integer, intent(in) :: k
+      logical :: does
+
+      does = elastic%body(k) == elastic%body(k - 1) .and. .not. (is_piece(elastic, k) .or. &
+        is_piece(elastic, k - 1))
+      if (does) does = norm2(elastic%axis(:, k) - elastic%axis(:, k - 1)) < straight
+    end function goes_on
+
+  end function straight_lengths
 
 end module part_requests

@@ -174,7 +174,7 @@ contains
       do k = 1, n
         if (want_shapes(k) .and. .not. allocated(result%outcome(k)%error)) then
           call sample_reduced(linkage, model, work%continuum%equations%chords, pose, found(k), &
-            request, result%shapes(k))
+            request, result%shapes(k), structure%elastic)
           result%counts%shapes = result%counts%shapes + request%modes
         end if
       end do

@@ -4,9 +4,11 @@ module shape_samples
   use deflected_shape, only: shape_point
   use deformation_chain, only: chain_shape, deformation_chain_t
   use deformation_model, only: deformation_model_t
+  use elastic_linkages, only: elastic_linkage_t
   use kinds, only: wp
-  use linkages, only: linkage_t, normal_to
+  use linkages, only: cross, drives_angle, drives_slider, linkage_t, normal_to
   use pin_displacements, only: chords_t
+  use pose_types, only: pins_of_body
   use poses, only: pose_t
   use positions, only: state_t
   use reduced_shapes, only: reduced_shape_point
@@ -18,25 +20,34 @@ module shape_samples
   public :: shapes_t, sample_reduced, sample_chain, sample_nodal
 
   !> Displacements along the links in every mode, in global axes, with φᵀMφ = 1. The sign is that of
-  !! `sign_of`, whatever the method and the number of points.
+  !! `turn_at_drive`, or else `turn_of_all`, whatever the method and the number of points.
   type :: shapes_t
     real(wp), allocatable :: displacement(:, :, :, :) !! (x, y, rotation; points; bodies; modes)
                                                       !! [kg^-1/2, kg^-1/2, rad kg^-1/2/m]
   end type shapes_t
 
-  !> Places along each link, from 0 to 1, that decide on the sign.
-  real(wp), parameter :: place(5) = [0.0_wp, 0.25_wp, 0.5_wp, 0.75_wp, 1.0_wp]
-  integer, parameter :: at_middle = 3, at_end = 5
+  !> Where the first drive acts.
+  type :: drive_place_t
+    integer :: pin = 1                !! at its joint
+    logical, allocatable :: turns(:)  !! (bodies) of the link that it turns
+  end type drive_place_t
 
-  !> The driven link's pin is at rest if it moves across its link by less than this share of the
+  !> Places along each link that decide on the sign: of what moves most, and of integrals over
+  !! modes, which have many waves.
+  integer, parameter :: coarse = 5, fine = 65
+
+  !> The far end of the driven link is at rest if it moves across by less than this share of the
   !! largest displacement: well above the rounding of the vectors of any solver, and below what can
   !! be seen in a figure.
   real(wp), parameter :: at_rest = 1.0e-5_wp
 
+  !> Distances within this share count as equal.
+  real(wp), parameter :: tie = 1.0e-9_wp
+
 contains
 
   !> Shapes of a model in deformation coordinates.
-  pure subroutine sample_reduced(linkage, model, chords, pose, found, request, shapes)
+  pure subroutine sample_reduced(linkage, model, chords, pose, found, request, shapes, elastic)
     type(linkage_t), intent(in) :: linkage         !! of the structure
     type(deformation_model_t), intent(in) :: model !! its links' own deformations
     type(chords_t), intent(in) :: chords           !! at this position
@@ -44,25 +55,37 @@ contains
     type(bordered_modes_t), intent(in) :: found    !! modes at this position
     type(mode_request_t), intent(in) :: request    !! modes, points along each link
     type(shapes_t), intent(out) :: shapes          !! of the modes requested
+    type(elastic_linkage_t), intent(in), optional :: elastic !! where the links have parts
 
-    real(wp) :: at(3, size(place), size(model%links))
-    integer :: b, i, mode
+    type(drive_place_t) :: drive
+    real(wp) :: turn
+    integer :: mode
 
+    drive = place_of_drive(linkage, elastic)
     allocate (shapes%displacement(3, request%points, size(model%links), request%modes))
     do mode = 1, request%modes
+      turn = turn_at_drive(linkage, pose, drive, sampled(mode, coarse))
+      if (.not. abs(turn) > 0.0_wp) turn = turn_of_all(linkage, pose, drive, sampled(mode, fine))
+      shapes%displacement(:, :, :, mode) = sign(1.0_wp, turn)*sampled(mode, request%points)
+    end do
+
+  contains
+
+    !> A mode at evenly spaced places of every link.
+    pure function sampled(mode, points) result(at)
+      integer, intent(in) :: mode, points
+      real(wp) :: at(3, points, size(model%links))
+
+      integer :: b, i
+
       do b = 1, size(model%links)
-        do i = 1, request%points
-          shapes%displacement(:, i, b, mode) = reduced_shape_point(model%links, model%layout, &
-            chords, pose, found%vector(:, mode), b, real(i - 1, wp)/(request%points - 1))
-        end do
-        do i = 1, size(place)
+        do i = 1, points
           at(:, i, b) = reduced_shape_point(model%links, model%layout, chords, pose, &
-            found%vector(:, mode), b, place(i))
+            found%vector(:, mode), b, real(i - 1, wp)/(points - 1))
         end do
       end do
-      shapes%displacement(:, :, :, mode) = sign_of(linkage, pose, &
-        at)*shapes%displacement(:, :, :, mode)
-    end do
+    end function sampled
+
   end subroutine sample_reduced
 
   !> Shapes of a long mesh, as in `sample_reduced`.
@@ -74,27 +97,38 @@ contains
     type(mode_request_t), intent(in) :: request    !! modes, points along each link
     type(shapes_t), intent(out) :: shapes          !! of the modes requested
 
-    real(wp) :: at(3, size(place), size(linkage%bodies)), local(3, request%points), &
-      at_places(3, size(place))
-    integer :: b, i, mode
+    type(drive_place_t) :: drive
+    real(wp) :: turn
+    integer :: mode
 
+    drive = place_of_drive(linkage)
     allocate (shapes%displacement(3, request%points, size(linkage%bodies), request%modes))
     do mode = 1, request%modes
+      turn = turn_at_drive(linkage, state%pose, drive, sampled(mode, coarse))
+      if (.not. abs(turn) > 0.0_wp) turn = turn_of_all(linkage, state%pose, drive, sampled(mode, &
+        fine))
+      shapes%displacement(:, :, :, mode) = sign(1.0_wp, turn)*sampled(mode, request%points)
+    end do
+
+  contains
+
+    !> A mode at evenly spaced places of every link.
+    pure function sampled(mode, points) result(at)
+      integer, intent(in) :: mode, points
+      real(wp) :: at(3, points, size(linkage%bodies))
+
+      real(wp) :: local(3, points)
+      integer :: b, i
+
       do b = 1, size(linkage%bodies)
-        local = chain_shape(chain, vector(:, mode), b, &
-          [(real(i - 1, wp)/(request%points - 1), i=1, request%points)])
-        do i = 1, request%points
-          shapes%displacement(:, i, b, mode) = in_global_axes(local(:, i), state%pose%direction(:, &
-            b))
-        end do
-        at_places = chain_shape(chain, vector(:, mode), b, place)
-        do i = 1, size(place)
-          at(:, i, b) = in_global_axes(at_places(:, i), state%pose%direction(:, b))
+        local = chain_shape(chain, vector(:, mode), b, [(real(i - 1, wp)/(points - 1), i=1, &
+          points)])
+        do i = 1, points
+          at(:, i, b) = in_global_axes(local(:, i), state%pose%direction(:, b))
         end do
       end do
-      shapes%displacement(:, :, :, mode) = sign_of(linkage, state%pose, &
-        at)*shapes%displacement(:, :, :, mode)
-    end do
+    end function sampled
+
   end subroutine sample_chain
 
   !> Shapes of a mesh in nodal displacements, as in `sample_reduced`.
@@ -105,25 +139,38 @@ contains
     type(mode_request_t), intent(in) :: request !! modes, points along each link
     type(shapes_t), intent(out) :: shapes       !! of the modes requested
 
-    real(wp) :: at(3, size(place), size(structure%linkage%bodies)), length
-    integer :: b, i, mode
+    type(drive_place_t) :: drive
+    real(wp) :: turn
+    integer :: mode
 
-    allocate (shapes%displacement(3, request%points, size(structure%linkage%bodies), request%modes))
-    do mode = 1, request%modes
+    associate (linkage => structure%linkage)
+      drive = place_of_drive(linkage)
+      allocate (shapes%displacement(3, request%points, size(linkage%bodies), request%modes))
+      do mode = 1, request%modes
+        turn = turn_at_drive(linkage, state%pose, drive, sampled(mode, coarse))
+        if (.not. abs(turn) > 0.0_wp) turn = turn_of_all(linkage, state%pose, drive, &
+          sampled(mode, fine))
+        shapes%displacement(:, :, :, mode) = sign(1.0_wp, turn)*sampled(mode, request%points)
+      end do
+    end associate
+
+  contains
+
+    !> A mode at evenly spaced places of every link.
+    pure function sampled(mode, points) result(at)
+      integer, intent(in) :: mode, points
+      real(wp) :: at(3, points, size(structure%linkage%bodies))
+
+      integer :: b, i
+
       do b = 1, size(structure%linkage%bodies)
-        length = structure%linkage%bodies(b)%length
-        do i = 1, request%points
-          shapes%displacement(:, i, b, mode) = shape_point(structure%linkage, structure%mesh, &
-            state%pose, vector(:, mode), b, length*(i - 1)/(request%points - 1))
-        end do
-        do i = 1, size(place)
+        do i = 1, points
           at(:, i, b) = shape_point(structure%linkage, structure%mesh, state%pose, vector(:, &
-            mode), b, place(i)*length)
+            mode), b, structure%linkage%bodies(b)%length*(i - 1)/(points - 1))
         end do
       end do
-      shapes%displacement(:, :, :, mode) = sign_of(structure%linkage, state%pose, &
-        at)*shapes%displacement(:, :, :, mode)
-    end do
+    end function sampled
+
   end subroutine sample_nodal
 
   !> Turns a displacement along and across a link to global axes; the rotation stays as it is.
@@ -135,32 +182,111 @@ contains
     global = [local(1)*direction + local(2)*normal_to(direction), local(3)]
   end function in_global_axes
 
-  !> The sign with which the driven link's moving pin goes round its ground pivot counter-clockwise.
-  !!
-  !! Where that pin is at rest, the sign that makes the largest transverse displacement at mid-link
-  !! positive, in that link's own axes (those of its angle). Displacements within 1e-9 of the
-  !! largest count as equal; of these the first link round the loop decides.
-  pure function sign_of(linkage, pose, at) result(sign_of_mode)
+  !> How far the far end of the driven link goes round the joint of its drive, counter-clockwise;
+  !! 0 where it is at rest. It depends neither on the order of pins and links, nor on cuts.
+  pure function turn_at_drive(linkage, pose, drive, at) result(turn)
+    type(linkage_t), intent(in) :: linkage      !! whose bodies are the links, or parts
+    type(pose_t), intent(in) :: pose            !! of these
+    type(drive_place_t), intent(in) :: drive    !! its first
+    real(wp), intent(in) :: at(:, :, :)         !! (x, y, rotation; places; bodies)
+    real(wp) :: turn
+
+    real(wp) :: arm(2), farthest
+    integer :: i, k
+
+    turn = 0.0_wp
+    farthest = 0.0_wp
+    do k = 1, size(at, 3)
+      if (.not. drive%turns(k)) cycle
+      do i = 1, size(at, 2)
+        arm = arm_to(linkage, pose, drive, k, real(i - 1, wp)/(size(at, 2) - 1))
+        if (.not. norm2(arm) > (1.0_wp + tie)*farthest) cycle
+        farthest = norm2(arm)
+        turn = cross(arm, at(:2, i, k))/farthest
+      end do
+    end do
+    if (.not. abs(turn) > at_rest*sqrt(maxval(sum(at(:2, :, :)**2, dim=1)))) turn = 0.0_wp
+  end function turn_at_drive
+
+  !> How all links that bend turn together about that joint: `∫ (r − r0) × u dx` by Simpson's rule.
+  !! Cuts and the order of pins and links are not in it either.
+  pure function turn_of_all(linkage, pose, drive, at) result(turn)
+    type(linkage_t), intent(in) :: linkage      !! whose bodies are the links, or parts
+    type(pose_t), intent(in) :: pose            !! of these
+    type(drive_place_t), intent(in) :: drive    !! its first
+    real(wp), intent(in) :: at(:, :, :)         !! (x, y, rotation; places, odd; bodies)
+    real(wp) :: turn
+
+    real(wp) :: weight
+    integer :: i, k, n
+
+    turn = 0.0_wp
+    n = size(at, 2)
+    do k = 1, size(at, 3)
+      if (.not. linkage%bodies(k)%bends) cycle
+      do i = 1, n
+        weight = merge(4.0_wp, 2.0_wp, modulo(i, 2) == 0)
+        if (i == 1 .or. i == n) weight = 1.0_wp
+        turn = turn + weight*linkage%bodies(k)%length*cross(arm_to(linkage, pose, drive, k, &
+          real(i - 1, wp)/(n - 1)), at(:2, i, k))
+      end do
+    end do
+  end function turn_of_all
+
+  !> From the joint of the drive to a place of a body, a share of its way from end to end.
+  pure function arm_to(linkage, pose, drive, body, share) result(arm)
     type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose       !! directions of the bodies
-    real(wp), intent(in) :: at(:, :, :)    !! (x, y, rotation; places; bodies), before
-    real(wp) :: sign_of_mode
+    type(pose_t), intent(in) :: pose
+    type(drive_place_t), intent(in) :: drive
+    integer, intent(in) :: body
+    real(wp), intent(in) :: share
+    real(wp) :: arm(2)
 
-    real(wp), parameter :: tie = 1.0e-9_wp
-    real(wp) :: across(size(linkage%bodies)), round
-    integer :: b
+    associate (first => pose%pin(:, linkage%bodies(body)%first_pin), &
+        last => pose%pin(:, linkage%bodies(body)%last_pin))
+      arm = first + share*(last - first) - pose%pin(:, drive%pin)
+    end associate
+  end function arm_to
 
-    round = dot_product(normal_to(pose%direction(:, 1)), at(:2, at_end, 1))
-    if (abs(round) > at_rest*sqrt(maxval(sum(at(:2, :, :)**2, dim=1)))) then
-      sign_of_mode = sign(1.0_wp, round)
+  !> The joint of the first drive, and what it turns: of a four-bar the first body. Of parts it is
+  !! the pin of the link turned that stands still, or that this has in common with the link from
+  !! which its angle is measured; of a slider its own pin; without a drive the first ground pivot.
+  pure function place_of_drive(linkage, elastic) result(place)
+    type(linkage_t), intent(in) :: linkage                   !! whose bodies are links or parts
+    type(elastic_linkage_t), intent(in), optional :: elastic !! of parts
+    type(drive_place_t) :: place
+
+    integer, allocatable :: others(:)
+    integer :: i, k
+
+    allocate (place%turns(size(linkage%bodies)), source=.false.)
+    if (.not. present(elastic)) then
+      place%turns(1) = .true.
+      place%pin = linkage%bodies(1)%first_pin
       return
     end if
-    do b = 1, size(linkage%bodies)
-      across(b) = linkage%bodies(b)%heading(1)*dot_product(normal_to(pose%direction(:, b)), at(:2, &
-        at_middle, b))
-    end do
-    b = findloc(abs(across) >= (1.0_wp - tie)*maxval(abs(across)), .true., dim=1)
-    sign_of_mode = sign(1.0_wp, across(b))
-  end function sign_of
+    place%pin = max(1, findloc(linkage%is_ground, .true., dim=1))
+    if (size(linkage%drives) == 0) return
+    associate (drive => linkage%drives(1))
+      if (drive%kind == drives_slider) place%pin = linkage%sliders(drive%slider)%pin
+      if (drive%kind /= drives_angle) return
+      place%turns = elastic%body == drive%body
+      allocate (others(0))
+      do k = 1, size(elastic%body)
+        if (elastic%body(k) == drive%against) others = [others, pins_of_body(linkage%bodies(k))]
+      end do
+      do k = 1, size(elastic%body)
+        if (.not. place%turns(k)) cycle
+        associate (pins => pins_of_body(linkage%bodies(k)))
+          do i = 1, size(pins)
+            if (.not. any(others == pins(i)) .and. .not. (drive%against == 0 .and. &
+              linkage%is_ground(pins(i)))) cycle
+            place%pin = pins(i)
+            return
+          end do
+        end associate
+      end do
+    end associate
+  end function place_of_drive
 
 end module shape_samples
