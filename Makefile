@@ -26,7 +26,7 @@ unit_tests = $(if $(PFUNIT_DIR),pfunit,funit)/unit_tests
 
 ifndef kind
 # ---------------------------------------------------------------------------------------------- what a person types
-.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress stress-responses stress-stability accuracies linkages loads vibrations references fuzz memory scaling golden \
+.PHONY: all debug quad thesis run figures animate check documents bench bench-pictures stress stress-responses stress-stability accuracies linkages loads vibrations references fuzz memory scaling check-all golden \
         install setup clean help
 
 # Somebody's environment may have another meaning of it.
@@ -84,6 +84,13 @@ check: setup
 	$(stage) kind=release $(program) build/release/$(unit_tests) build/release/bench/bench $(if $(shell command -v mpifort),$(of_mpi))
 	$(stage) kind=debug build/debug/flexmech build/debug/$(unit_tests) build/debug/bench/bench
 	@python3 -B $(support)/check.py $(unit_tests)
+
+# All slow families, with counts that take an hour or so; ONLY="fuzz threads" for some. The table is in check_all.py.
+check-all: all debug
+	@SANITIZERS=yes sh $(support)/setup.sh
+	$(stage) kind=sanitize build/sanitize/flexmech
+	$(stage) kind=release build/release/stress/responses build/release/stress/stability
+	@python3 -B $(support)/check_all.py $(ONLY)
 
 # Numbers of the documents that runs of some seconds give. STRESS=yes: those of the last `make stress` instead.
 documents: all
@@ -201,6 +208,7 @@ help:
 	@echo "make animate DECK=FILE  run one deck and animate its motion and its modes"
 	@echo "make check              all tests, in the release and in the debug build"
 	@echo "make check PFUNIT_DIR=D the same, with the unit tests run by the pFUnit 4 installed in the folder D"
+	@echo "make check-all          all slow families of tests below, reduced to an hour or so; ONLY=\"fuzz threads\" for some"
 	@echo "make documents          recompute the numbers of README.md and docs/ that take a few seconds"
 	@echo "make bench              time every solver, tables and figures in outputs/bench/ (six minutes)"
 	@echo "make bench-pictures     copy these figures to docs/pictures/"

@@ -11,7 +11,7 @@ module numbers
   implicit none (type, external)
   private
 
-  public :: number_length, read_real, read_integer, shortest_text
+  public :: number_length, read_real, read_integer, shortest_text, write_shortest
 
 contains
 
@@ -171,6 +171,14 @@ contains
     real(wp), intent(in) :: value !! finite
     character(len=:), allocatable :: string
 
+    call write_shortest(value, string)
+  end function shortest_text
+
+  !> As `shortest_text`, for what threads do at the same time.
+  pure subroutine write_shortest(value, string)
+    real(wp), intent(in) :: value !! finite
+    character(len=:), allocatable, intent(out) :: string
+
     type(error_t), allocatable :: error
     real(wp) :: again
     integer :: digits
@@ -180,7 +188,7 @@ contains
       call read_real(string, again, error)
       if (abs(again - value) <= 0.0_wp) return
     end do
-  end function shortest_text
+  end subroutine write_shortest
 
   !> Whether the digits before the exponent hold anything but zeros.
   pure function has_significant_digit(digits) result(has)

@@ -3,7 +3,7 @@
 module output_units
   use errors, only: error_t
   use units, only: coherent_unit, dimension_force, dimension_line_stiffness, dimension_moment, &
-    dimension_rate, dimension_stress, dimension_time, dimension_turning_stiffness, own_name, &
+    dimension_rate, dimension_stress, dimension_time, dimension_turning_stiffness, name_known, &
     read_unit, unit_system_t, unit_t
   implicit none (type, external)
   private
@@ -59,7 +59,7 @@ contains
     type(unit_t) :: measure
 
     measure = stress_factor(outputs)
-    measure%name = own_name(measure)
+    call name_known(measure)
     if (len(measure%name) == 0) measure%name = outputs%force%name//"/"// &
       outputs%system%length%name//"2"
   end function stress_unit

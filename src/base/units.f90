@@ -12,7 +12,7 @@ module units
   private
 
   public :: unit_t, unit_system_t, dimension_name, wrong_unit, read_unit, new_unit_system, &
-    si_units, coherent_unit, coherent_factor, own_name, to_si, from_si, serves_for
+    si_units, coherent_unit, coherent_factor, name_known, to_si, from_si, serves_for
   public :: dimension_none, dimension_length, dimension_mass, dimension_time, dimension_angle, &
     dimension_rate
   public :: dimension_angular_acceleration, dimension_velocity, dimension_acceleration, &
@@ -317,10 +317,11 @@ contains
     type(unit_t) :: moment
 
     measure = coherent_factor(system, dimension)
-    if (dimension(4) == 0) measure%name = coherent_name(system, measure)
+    if (dimension(4) == 0) call name_coherent(system, measure)
     if (all(dimension == dimension_turning_stiffness)) then
       moment = coherent_factor(system, dimension_moment)
-      measure%name = coherent_name(system, moment)//"/rad"
+      call name_coherent(system, moment)
+      measure%name = moment%name//"/rad"
     end if
   end function coherent_unit
 
@@ -359,11 +360,13 @@ contains
     end if
   end subroutine multiply_unit
 
-  !> `N` if the unit has a name of its own, else a product such as `lbm.in/s2`.
-  pure function coherent_name(system, measure) result(name)
+  ! Names of units are found by subroutines: rows of tables need them, which threads make at the
+  ! same time, and functions of deferred length would share a place for it.
+
+  !> Names a unit `N` if it has a name of its own, else as a product such as `lbm.in/s2`.
+  pure subroutine name_coherent(system, measure)
     type(unit_system_t), intent(in) :: system
-    type(unit_t), intent(in) :: measure
-    character(len=:), allocatable :: name
+    type(unit_t), intent(inout) :: measure !! whose name is set
 
     type(unit_t), allocatable :: known(:)
     integer :: i
@@ -373,7 +376,7 @@ contains
       if (all(measure%dimension == dimension_moment) .and. &
         all(known(i)%dimension == dimension_force)) then
         if (same_factor(measure, product_of(known(i), system%length))) then
-          name = known(i)%name//"."//system%length%name
+          measure%name = known(i)%name//"."//system%length%name
           return
         end if
       end if
@@ -381,35 +384,36 @@ contains
       if (all(known(i)%dimension == dimension_moment)) cycle
       if (any(known(i)%dimension /= measure%dimension)) cycle
       if (.not. same_factor(measure, known(i))) cycle
-      name = known(i)%name
+      measure%name = known(i)%name
       return
     end do
-    name = factors_name(system, measure%dimension(:3))
+    measure%name = ""
+    call append_factors(system, measure%dimension(:3), measure%name)
     if (any(measure%dimension(:3) < 0)) then
-      if (len(name) == 0) name = "1"
-      name = name//"/"//factors_name(system, -measure%dimension(:3))
+      if (len(measure%name) == 0) measure%name = "1"
+      measure%name = measure%name//"/"
+      call append_factors(system, -measure%dimension(:3), measure%name)
     end if
-    if (len(name) == 0) name = "-"
-  end function coherent_name
+    if (len(measure%name) == 0) measure%name = "-"
+  end subroutine name_coherent
 
-  !> `MPa` for N/mm²: the name of the unit with the dimension and the factor of another one; empty
-  !! if there is none.
-  pure function own_name(measure) result(name)
-    type(unit_t), intent(in) :: measure !! its name is not used
-    character(len=:), allocatable :: name
+  !> Names a unit `MPa` for N/mm²: as the known unit with its dimension and factor; empty if there
+  !! is none.
+  pure subroutine name_known(measure)
+    type(unit_t), intent(inout) :: measure !! whose name is set
 
     type(unit_t), allocatable :: known(:)
     integer :: i
 
-    name = ""
+    measure%name = ""
     known = named_units()
     do i = 1, size(known)
       if (any(known(i)%dimension /= measure%dimension)) cycle
       if (.not. same_factor(measure, known(i))) cycle
-      name = known(i)%name
+      measure%name = known(i)%name
       return
     end do
-  end function own_name
+  end subroutine name_known
 
   pure function same_factor(a, b) result(same)
     type(unit_t), intent(in) :: a, b
@@ -427,28 +431,30 @@ contains
       a%denominator*b%denominator)
   end function product_of
 
-  !> `tonne.mm2`: the base units with positive exponents, mass first.
-  pure function factors_name(system, exponents) result(name)
+  !> Appends `tonne.mm2`: the base units with positive exponents, mass first.
+  pure subroutine append_factors(system, exponents, name)
     type(unit_system_t), intent(in) :: system
     integer, intent(in) :: exponents(3) !! of length, mass and time
-    character(len=:), allocatable :: name
+    character(len=:), allocatable, intent(inout) :: name
 
     integer, parameter :: in_order(3) = [2, 1, 3]
     type(string_t) :: factor(3)
     integer :: i, power
+    logical :: is_first
 
     factor(1)%text = system%mass%name
     factor(2)%text = system%length%name
     factor(3)%text = system%time%name
-    name = ""
+    is_first = .true.
     do i = 1, 3
       power = exponents(in_order(i))
       if (power < 1) cycle
-      if (len(name) > 0) name = name//"."
+      if (.not. is_first) name = name//"."
+      is_first = .false.
       name = name//factor(i)%text
       if (power > 1) name = name//to_string(power)
     end do
-  end function factors_name
+  end subroutine append_factors
 
   !> The name of a dimension, for messages; empty for a dimension without a name.
   pure function dimension_noun(dimension) result(noun)

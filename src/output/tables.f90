@@ -6,7 +6,7 @@ module tables
   use errors, only: error_t
   use kinds, only: long, wp
   use number_text, only: number_width, scientific
-  use numbers, only: shortest_text
+  use numbers, only: write_shortest
   use output_files, only: append_output, discard_output, finish_output, open_output, &
     output_file_t, publish_output
   use table_rows, only: item_failure, item_gap, item_row, next_item, row_item_t, rows_t
@@ -350,7 +350,8 @@ contains
     integer :: zeros
 
     cell = real_cells([value])
-    number = decimal_of(shortest_text(value))
+    call write_shortest(value, digits)
+    number = decimal_of(digits)
     if (.not. number%is_exact .or. number%digits == 0_long) return
     if (abs(decimal_value(number) - value) > 0.0_wp) return
     digits = to_string(abs(number%digits))

@@ -3,7 +3,7 @@
 module bearings_report
   use drive_motions, only: drive_rates, place_columns, table_place
   use joint_study, only: bearings_at_speed
-  use joints_report, only: open_words, owner_cell
+  use joints_report, only: add_open_row, owner_cell
   use kinds, only: wp
   use load_notes, only: acceleration_note, append_load_notes
   use table_columns, only: cells, column_width, table_layout_t
@@ -54,7 +54,7 @@ contains
           variant%found%positions%states(state)%pose, state, rates(1), rates(2), speed))
         do i = 1, size(found%joints)
           if (found%is_open(i, state)) then
-            call add_failed_row(rows, place, open_words(variant, found%joints(i)))
+            call add_open_row(rows, place, variant, found%joints(i))
             cycle
           end if
           call add_row(rows, cells(layout, 1, place)// &

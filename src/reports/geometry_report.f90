@@ -86,6 +86,7 @@ contains
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     integer, allocatable :: pins(:)
+    character(len=:), allocatable :: line
     integer :: body, pin, point, slider, i
     logical :: is_first
 
@@ -120,10 +121,11 @@ contains
       do slider = 1, size(linkage%sliders)
         call add_gap(rows, 1)
         pin = linkage%sliders(slider)%pin
-        call add_place(layout, found%crank(position), line_name(variant, slider), "slider", &
-          pin_names(pin)%text, found%pin(:, pin, position), rows)
-        call add_place(layout, found%crank(position), line_name(variant, slider), "ahead", &
-          pin_names(pin)%text, found%ahead(:, slider, position), rows)
+        call find_line_name(variant, slider, line)
+        call add_place(layout, found%crank(position), line, "slider", pin_names(pin)%text, &
+          found%pin(:, pin, position), rows)
+        call add_place(layout, found%crank(position), line, "ahead", pin_names(pin)%text, &
+          found%ahead(:, slider, position), rows)
       end do
       do i = 1, size(variant%model%springs)
         call add_gap(rows, 1)
@@ -192,10 +194,10 @@ contains
   end function place_of
 
   !> The guide or the link along which a slider slides.
-  pure function line_name(variant, slider) result(name)
+  pure subroutine find_line_name(variant, slider, name)
     type(variant_results_t), intent(in) :: variant
     integer, intent(in) :: slider !! number
-    character(len=:), allocatable :: name
+    character(len=:), allocatable, intent(out) :: name
 
     associate (card => variant%model%sliders(slider), &
         body => variant%mechanism%linkage%sliders(slider)%body)
@@ -205,7 +207,7 @@ contains
         name = variant%model%guides(card%guide)%name%text
       end if
     end associate
-  end function line_name
+  end subroutine find_line_name
 
   !> Appends a row.
   subroutine add_place(layout, crank, link, part, place, x, rows)

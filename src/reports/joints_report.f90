@@ -18,7 +18,8 @@ module joints_report
   private
 
   public :: joints_notes, joint_owners, owner_cell, add_joints, drives_notes, drive_names, &
-    drive_columns, add_drives, add_shaking, reference_words, open_words
+    drive_columns, add_drives, add_shaking, reference_words, open_words, &
+    add_open_row
 
 contains
 
@@ -69,7 +70,7 @@ contains
         rates(1), rates(2), speed)
       do i = 1, size(joints)
         if (variant%found%joints%is_open(i, variant%found%positions%state(position))) then
-          call add_failed_row(rows, place, open_words(variant, joints(i)))
+          call add_open_row(rows, place, variant, joints(i))
           cycle
         end if
         call add_row(rows, cells(layout, 1, place)// &
@@ -97,6 +98,22 @@ contains
     words = "the force on "//owner//" at '"//variant%mechanism%pin_names(joint%pin)%text// &
       "' cannot be told: rigid links alone hold each other there"
   end function open_words
+
+  !> Appends a failed row for a joint that has no forces.
+  subroutine add_open_row(rows, place, variant, joint)
+    type(rows_t), intent(inout) :: rows            !! to which it is appended
+    real(wp), intent(in) :: place(:)               !! first values of the row
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
+    type(joint_t), intent(in) :: joint             !! of this linkage
+
+    character(len=:), allocatable :: words
+
+    ! One thread at a time makes texts.
+    !$omp critical (one_at_a_time)
+    words = open_words(variant, joint)
+    !$omp end critical (one_at_a_time)
+    call add_failed_row(rows, place, words)
+  end subroutine add_open_row
 
   !> The cell of the link or the guide of a joint.
   function owner_cell(variant, joint, width) result(cell)

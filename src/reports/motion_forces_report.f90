@@ -1,7 +1,7 @@
 !> `motion_forces.dat`: the forces in the joints of a linkage that is no four-bar, while it moves
 !! under its motor and loads.
 module motion_forces_report
-  use joints_report, only: open_words, owner_cell
+  use joints_report, only: add_open_row, owner_cell
   use kinds, only: wp
   use load_notes, only: append_load_notes
   use motion_report, only: time_in_table
@@ -49,8 +49,7 @@ contains
         end if
         do k = 1, size(motion%joints)
           if (motion%is_open(k, i)) then
-            call add_failed_row(rows, [time_in_table(variant%model, i)], open_words(variant, &
-              motion%joints(k)))
+            call add_open_row(rows, [time_in_table(variant%model, i)], variant, motion%joints(k))
             cycle
           end if
           call add_row(rows, decimal_cell(time_in_table(variant%model, i))//name_cell( &

@@ -874,13 +874,17 @@ contains
     type(rows_t), intent(inout) :: rows
 
     real(wp) :: place(place_columns(variant%model))
+    character(len=:), allocatable :: words
 
     place = table_place(variant%model, speed, position)
     place(size(place)) = shown_crank(variant, variant%found%positions%crank(position))
     if (has_law(variant%model)) place(1) = from_si(place(1), table_factor("time", &
       variant%model%outputs))
-    call add_failed_row(rows, place, lock_words(variant%model, variant%mechanism, &
-      lock_at(variant, table, position, speed)))
+    ! One thread at a time makes texts.
+    !$omp critical (one_at_a_time)
+    words = lock_words(variant%model, variant%mechanism, lock_at(variant, table, position, speed))
+    !$omp end critical (one_at_a_time)
+    call add_failed_row(rows, place, words)
   end subroutine add_locked_row
 
   !> The rows of a position and speed of a linkage that is no four-bar.

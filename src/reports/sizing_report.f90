@@ -2,7 +2,7 @@
 module sizing_report
   use drive_cards, only: moves_along
   use constants, only: degree
-  use joints_report, only: joint_owners, open_words, owner_cell
+  use joints_report, only: add_open_row, joint_owners, owner_cell
   use kinds, only: wp
   use links_report, only: pin_names
   use load_notes, only: acceleration_note, append_load_notes
@@ -153,8 +153,8 @@ contains
           if (at_speed%sized(s)%drive > 0) then
             call add_drive(variant, layout, speed, at_speed%sized(s), rows)
           else if (found%is_open(at_speed%sized(s)%joint)) then
-            call add_failed_row(rows, [variant%model%shown_speed(speed)], open_words(variant, &
-              found%joints(at_speed%sized(s)%joint)))
+            call add_open_row(rows, [variant%model%shown_speed(speed)], variant, &
+              found%joints(at_speed%sized(s)%joint))
           else
             call add_joint(variant, layout, speed, at_speed%sized(s), rows)
           end if

@@ -450,7 +450,7 @@ contains
       else if (rounding/found%distance > request%accuracy) then
         if (allocated(choice%best)) deallocate (choice%best)
         call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
-          in_words(found%nearest)//", is too near to 0 for the accuracy asked for")
+          trim(in_words(found%nearest))//", is too near to 0 for the accuracy asked for")
       else
         call raise(request%accuracy, found%largest_error, gained, errors, solution%series, &
           with_kinks(request, level%grid), choice)
@@ -476,7 +476,7 @@ contains
     if (allocated(found%error) .or. found%largest_error <= no_digits) return
     call set_error(found%error, error_of_numerics, "no accuracy is reached with "// &
       to_string(found%samples)//" samples of the turn and order "//to_string(found%order)// &
-      "; the nearest exponent of the turn is "//in_words(found%nearest))
+      "; the nearest exponent of the turn is "//trim(in_words(found%nearest)))
   end subroutine settle
 
   !> Raises the samples, up to their limit.
@@ -565,7 +565,7 @@ contains
   !> An exponent as growth and turns.
   pure function in_words(exponent) result(words)
     complex(wp), intent(in) :: exponent !! ln|multiplier| and turns
-    character(len=:), allocatable :: words
+    character(len=48) :: words          ! no deferred length, which threads would share
 
     words = to_string(real(exponent, wp), 4)//" and "//to_string(aimag(exponent), 6)//" turns"
   end function in_words

@@ -1,14 +1,15 @@
 """Numbers as documents print them, and whether a printed one is the one computed.
 
-A value is compared in the form in which it is printed: what is written has to be the value rounded to the digits written. Errors
-below SMALL come out of rounding, so their digits depend on compiler and machine: there the written one has to be within a
-factor of FACTOR, or both at most NOTHING.
+A value is compared in the form in which it is printed: what is written has to be the value rounded to the digits written, or within
+the error that the program gives. Last digits depend on compiler and processor, and what rounding decides with them: of errors the
+written one has to be within a factor, OF_ERRORS if they are differences from known values, FACTOR if they are estimates or, below
+SMALL, come out of rounding; or both at most NOTHING.
 """
 
 import math
 import re
 
-SMALL, FACTOR, NOTHING = 1e-11, 3, 3e-15
+SMALL, FACTOR, OF_ERRORS, NOTHING = 1e-11, 3, 1.1, 3e-15
 
 
 class Cell:
@@ -22,10 +23,10 @@ class Cell:
 
 
 class Number(Cell):
-    """One number: `form` is that of Python's format(), `rough` a factor within which the written one may differ."""
+    """One number: `form` is that of Python's format(), `rough` a factor within which the written one may differ, `off` by how much."""
 
-    def __init__(self, value, form, rough=None):
-        self.value, self.form, self.rough = value, form, rough
+    def __init__(self, value, form, rough=None, off=0.0):
+        self.value, self.form, self.rough, self.off = value, form, rough, off
 
     def __str__(self):
         return re.sub(r"e([+-])0*(\d)", lambda found: "e" + found[1].replace("+", "") + found[2], format(self.value, self.form))
@@ -39,7 +40,7 @@ class Number(Cell):
         if self.rough is None:
             # Half a unit of the last digit, and a little for values that lie just between two.
             mantissa, _, exponent = str(self).replace(",", "").partition("e")
-            return abs(number - self.value) <= 0.501*10.0**(int(exponent or 0) - len(mantissa.partition(".")[2]))
+            return abs(number - self.value) <= self.off + 0.501*10.0**(int(exponent or 0) - len(mantissa.partition(".")[2]))
         if number <= 0 or self.value <= 0 or max(number, self.value) <= NOTHING:
             return abs(number - self.value) < NOTHING
         return abs(math.log(number/self.value)) <= math.log(self.rough)
@@ -78,8 +79,13 @@ def count(value):
 
 
 def error(value, small=SMALL):
-    """An error, in two digits; below `small` it comes out of rounding."""
-    return Number(value, ".1e", FACTOR if abs(value) < small else None)
+    """A difference from a known value, in two digits; below `small` it comes out of rounding."""
+    return Number(value, ".1e", FACTOR if abs(value) < small else OF_ERRORS)
+
+
+def estimate(value):
+    """An error that the program estimates, in two digits."""
+    return Number(value, ".1e", FACTOR)
 
 
 def rough_error(value):

@@ -4,7 +4,7 @@ import math
 import os
 import re
 
-from numbers_in_text import FACTOR, Number, Phrase, Word, count, error, fixed, rough_error, rounding
+from numbers_in_text import FACTOR, Number, Phrase, Word, count, error, estimate, fixed, rough_error, rounding
 from runs import Run, deck, largest
 
 ANGLES = range(0, 360, 30)
@@ -12,8 +12,6 @@ TWELVE = (r"^CRANK.*", "CRANK 0 to 330 step 30")
 NO_SHAPES = (r"^REPORT +shapes.*\n", "")
 FIVE = (r"^MODES.*", "MODES 5")
 TURN = 2*math.pi
-# Estimates of accuracy=1e-10 hold several times the rounding: with EI divided otherwise between E and I they vary by a factor of two.
-ESTIMATED_ROUNDING = 1e-10
 # Rounding that differs between machines, measured on two kinds: 2.7e-14 and 2.0e-13 of the displacement u, 3e-14 and 5e-13 of the
 # torque at 10 rad/s, whose mean is a small part of the torque.
 U_ROUNDING = BALANCE_ROUNDING = 1e-12
@@ -171,7 +169,7 @@ class Tables:
             rows = run.rows("frequencies")
             orders, unknowns = orders_and_unknowns(run.log)
             yield [Word(accuracy), Word(orders), count(unknowns)] + [error(value) for value in errors_against_exact(rows)] + \
-                [error(largest_estimate(rows))]
+                [estimate(largest_estimate(rows))]
 
     def thick_links(self):
         def thick(accuracy):
@@ -181,7 +179,7 @@ class Tables:
             run = thick(accuracy)
             rows = run.rows("frequencies")
             yield [Word(f"accuracy={accuracy}"), count(orders_and_unknowns(run.log)[1])] + \
-                [error(value) for value in errors_against(rows, best)] + [error(largest_estimate(rows))]
+                [error(value) for value in errors_against(rows, best)] + [estimate(largest_estimate(rows))]
 
     def effects_of_thickness(self):
         def thinner(n, words):
@@ -218,7 +216,7 @@ class Tables:
             run = self._long_mesh(n)
             rows = run.rows("frequencies")
             worst = errors_against_exact(rows, 3)
-            yield [count(n), count(9*n)] + [error(value) for value in worst] + [error(largest_estimate(rows, 3)), None, None]
+            yield [count(n), count(9*n)] + [error(value) for value in worst] + [estimate(largest_estimate(rows, 3)), None, None]
 
     def forward_dynamics(self):
         links = "".join(line + "\n" for line in deck("mechanism1").splitlines()
@@ -258,8 +256,8 @@ class Tables:
     @staticmethod
     def _exact(what, scale, values, shown=0, bound=0):
         """A row of the table: one of the values, and the largest error of all of them, which is rounding below a bound."""
-        return [Word(what), Number(values[shown][0], ".12f"), Number(values[shown][1], ".12f"),
-                rounding(max(abs(here - closed) for closed, here, _ in values)/abs(scale), bound), error(values[0][2], ESTIMATED_ROUNDING)]
+        return [Word(what), Number(values[shown][0], ".12f"), Number(values[shown][1], ".12f", off=values[0][2]*abs(scale)),
+                rounding(max(abs(here - closed) for closed, here, _ in values)/abs(scale), bound), estimate(values[0][2])]
 
     def critical_speed(self):
         """Hill's equations of the mass on a strip under hardly any gravity have constant coefficients: D(w) x = f."""
@@ -280,10 +278,10 @@ class Tables:
                          (r"REPORT   strains\n", "")):
             text = re.sub(old, new, text)
         row, = self._run(text).rows("critical")
-        yield [Word("critical speed"), Number(speed, ".12f"), Number(row["speed"], ".12f"), error(abs(row["speed"]/speed - 1), 1e-9),
-               error(row["speed_error"], 1e-9)]
-        yield [Word("excitation"), Number(growth, ".8e"), Number(row["excitation"]/1000, ".8e"),
-               error(abs(row["excitation"]/1000/growth - 1), 1e-9), error(row["error"], 1e-9)]
+        yield [Word("critical speed"), Number(speed, ".12f"), Number(row["speed"], ".12f", off=row["speed_error"]*speed), error(abs(row["speed"]/speed - 1), 1e-9),
+               estimate(row["speed_error"])]
+        yield [Word("excitation"), Number(growth, ".8e"), Number(row["excitation"]/1000, ".8e", off=row["error"]*growth),
+               error(abs(row["excitation"]/1000/growth - 1), 1e-9), estimate(row["error"])]
 
     def _stability(self, *changes):
         return self._run(deck("stability", *changes))
@@ -294,14 +292,15 @@ class Tables:
         undamped = self._stability(*one_speed).rows("stability")
         damped = self._stability(*one_speed, (r"^MODES.*", "MODES 3\nDAMPING * time=1e-4")).rows("stability")
         for one, other in zip(undamped, damped):
-            yield [Word(f"{one['mode']:.0f}"), Number(one["turns"], ".11f"), error(one["error"], 1e-8), Number(other["turns"], ".11f"),
-                   Number(other["growth"], ".8f"), error(other["error"], 1e-8)]
+            yield [Word(f"{one['mode']:.0f}"), Number(one["turns"], ".11f", off=one["error"]/TURN), estimate(one["error"]),
+                   Number(other["turns"], ".11f", off=other["error"]/TURN), Number(other["growth"], ".8f", off=other["error"]),
+                   estimate(other["error"])]
 
     def intervals(self):
         for row in self._stability((r"^SPEED .*", "SPEED 52.5 53.1"), (r"^REPORT +stability.*", "")).rows("intervals"):
             modes = row["modes"]
-            yield [Word(modes if isinstance(modes, str) else f"{modes:.0f}"), Word(row["kind"]), Number(row["from"], ".5f"), Number(row["to"], ".5f"), error(row["error"]),
-                   Number(row["largest_growth"], ".5e"), error(row["growth_error"])]
+            yield [Word(modes if isinstance(modes, str) else f"{modes:.0f}"), Word(row["kind"]), *(Number(row[end], ".5f", off=row["error"]) for end in ("from", "to")), estimate(row["error"]),
+                   Number(row["largest_growth"], ".5e", off=row["growth_error"]), estimate(row["growth_error"])]
 
     def _response(self, accuracy, *changes):
         return self._run(deck("response", (r"^(REPORT +\w+).*", rf"\1 accuracy={accuracy}"), *changes))
@@ -310,12 +309,12 @@ class Tables:
         run = self._response("1e-8")
         strain = {(row["gauge"], row["crank"]): row for row in run.rows("strains")}
         place = {(row["point"], row["crank"]): row for row in run.rows("response")}
-        for what, value, estimate in (
+        for what, value, off in (
                 *((f"bending strain, {gauge.replace('_', '-')}, 60°",
                    strain[gauge, 60]["bending_strain"], strain[gauge, 60]["error"]) for gauge in ("mid_coupler", "mid_follower")),
                 ("B, x, 0° [m]", place["B:coupler", 0]["ux"]/1000, place["B:coupler", 0]["error"]),
                 ("B, y, 0° [m]", place["B:coupler", 0]["uy"]/1000, place["B:coupler", 0]["error"])):
-            yield [Word(what), Number(value, ".10e"), None, error(estimate)]
+            yield [Word(what), Number(value, ".10e", off=off*abs(value)), None, estimate(off)]
 
     def response_accuracies(self):
         """Largest error and estimate of each table: of every quantity by its largest value over the turn."""
@@ -336,7 +335,7 @@ class Tables:
                 rows, references = run.rows(table), best.rows(table)
                 errors = [error_of(*([row for row in some if row[key] == one] for some in (rows, references)), columns)
                           for one in {row[key] for row in rows} for columns in quantities]
-                cells += [error(max(errors)), error(largest(rows, "error"))]
+                cells += [error(max(errors)), estimate(largest(rows, "error"))]
             order, samples = re.search(r"polynomials of order (\d+).*?(\d+) crank angles", run.files["drive.dat"]).groups()
             yield [Word(accuracy), Word(order), Word(samples)] + cells
 

@@ -117,7 +117,7 @@ def compare(name, program, scratch):
 
 def check(names, program, scratch, skip_refused):
     """Number of decks that fail."""
-    failures, counted, violations, largest = 0, 0, 0, [Decimal(0)] * MODES
+    failures, passed, counted, violations, largest = 0, 0, 0, 0, [Decimal(0)] * MODES
     for name in names:
         try:
             wrong, count, errors, most = compare(name, program, scratch)
@@ -127,12 +127,14 @@ def check(names, program, scratch, skip_refused):
                 continue
             wrong, count, errors, most = [str(error)], 0, largest, Decimal(0)
         failures += bool(wrong)
+        passed += not wrong
         violations += len(wrong)
         counted += count
         largest = [max(pair) for pair in zip(largest, errors)]
         print(f"not ok {name}: {wrong[0]}" + (f" (and {len(wrong) - 1} more)" if len(wrong) > 1 else "") if wrong
               else f"ok {name}: " + " ".join(f"{error:.1e}" for error in errors + [most]))
     print(f"# {counted} frequencies, {violations} violations; largest errors of f1 to f{MODES}: " + " ".join(f"{e:.1e}" for e in largest))
+    print(f"# {passed} passed, {failures} failed")
     return failures
 
 

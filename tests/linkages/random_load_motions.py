@@ -176,6 +176,7 @@ def main():
         largest, windows, rough = max(largest, found[0]), windows + found[1], rough + found[2]
     print(f"{done} motions, {failures} failed; {windows} windows of {WINDOW} steps, {rough} more too rough to integrate; "
           f"largest error of the energies {largest:.1e}")
+    print(f"{done - failures} passed, {failures} failed")
     return 1 if failures else 0
 
 

@@ -323,6 +323,7 @@ def main():
     shown = " ".join(f"{name} {value:.1e}" for name, value in sorted(largest.items()))
     print(f"{done} linkages, {failures} failed; " + " ".join(f"{kind}:{number}" for kind, number in sorted(kinds.items())))
     print(f"largest differences: {shown}")
+    print(f"{done - failures} passed, {failures} failed")
     return 1 if failures else 0
 
 

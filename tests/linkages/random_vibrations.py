@@ -505,6 +505,7 @@ def main():
     os.makedirs(scratch, exist_ok=True)
     jobs = [(seed, options.kind, options.program, scratch) for seed in range(options.seed, options.seed + options.count)]
     total, reasons, refusals, skips = (collections.Counter() for _ in range(4))
+    unlike = 0
     examples = {}
     with multiprocessing.Pool(max(1, options.jobs)) as pool:
         for result in pool.imap(examine, jobs):
@@ -515,6 +516,7 @@ def main():
             refusal = result.refused and result.refused.split("error: ")[-1].split(" | ")[0]
             refusals[refusal] += 1
             skips[result.skipped] += 1
+            unlike += bool(result.violations or result.refused and not options.skip_refused)
             for reason in list(result.reasons) + [refusal, result.skipped]:
                 examples.setdefault(reason, result.seed)
     refused, skipped = sum(refusals.values()) - refusals.pop(None, 0), sum(skips.values()) - skips.pop(None, 0)
@@ -528,6 +530,7 @@ def main():
         shutil.rmtree(scratch)
     elif wrong:
         print(f"decks are in {scratch}")
+    print(f"{options.count - unlike} passed, {unlike} failed")
     return 1 if wrong else 0
 
 

@@ -188,6 +188,7 @@ def main():
     print(tables)
     print(f"{found.frequencies} frequencies of {found.decks} decks, {found.comparisons} comparisons (seed {words.seed}): "
           f"{found.defects} defects")
+    print(f"{found.comparisons - found.defects} passed, {found.defects} failed")
     return 1 if found.defects else 0
 
 

@@ -110,6 +110,7 @@ def main():
     if missed:
         print(f"{missed} of the bounded rows say that their accuracy= is not reached")
     print(f"{total[BOUNDED]} bounded, {total[REFUSED]} refused, {total[FAILED]} failed rows with a reason, {total[DEFECT]} defects")
+    print(f"{sum(total.values()) - total[DEFECT]} passed, {total[DEFECT]} failed")
     return 1 if total[DEFECT] else 0
 
 

@@ -25,6 +25,8 @@ COUNT = os.path.join("build", "check.count")
 BUILDS = ("release", "debug")
 LONGEST = 600  # seconds; a test that takes longer hangs
 FUZZED = 500   # decks; `make fuzz` runs more
+# The C library has other sin, cos and exp for other processors; without all of these it has those of the oldest.
+OLDEST = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX512F,-AVX512DQ,-AVX512BW,-AVX512VL,-AVX2,-FMA,-FMA4"}
 
 
 class Group:
@@ -71,10 +73,10 @@ class Group:
         Group.failed += self.failed
 
 
-def execute(command, folder="."):
+def execute(command, folder=".", environment=None):
     """Run without input, and with a limit of time."""
     try:
-        return subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
+        return subprocess.run(command, cwd=folder, env=dict(os.environ, **environment or {}), stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
                               timeout=LONGEST, check=False)
     except subprocess.TimeoutExpired:
         return subprocess.CompletedProcess(command, -1, "", f"still running after {LONGEST} s")
@@ -137,6 +139,7 @@ def assertions(build, path):
 def layers():
     group = Group("layers")
     group.lines(execute([sys.executable, "-B", os.path.join("tests", "support", "check_layers.py")]))
+    group.lines(execute([sys.executable, "-B", os.path.join("tests", "support", "check_threads.py"), os.path.join("build", "release")]))
     group.end()
 
 
@@ -170,12 +173,13 @@ def refused_decks(build):
     group.end()
 
 
-def random_loads():
-    """Random linkages with all loads against the independent solver; `make loads` compares more."""
-    group = Group("random loads, release")
-    for script, count in (("random_loads.py", 36), ("random_load_motions.py", 12)):
+def random_linkages():
+    """Random linkages against independent solvers, and against themselves described otherwise; `make check-all` compares more."""
+    group = Group("random linkages, release")
+    for script, count in (("random_loads.py", 36), ("random_load_motions.py", 12), ("force_tables.py", 3), ("welded_sections.py", 2),
+                          ("metamorphic.py", 6)):
         run = execute([sys.executable, "-B", os.path.join("tests", "linkages", script), "1", str(count), "--program",
-                       program("release"), "--scratch", fresh("loads", base_name(script))])
+                       program("release"), "--scratch", fresh("linkages", base_name(script))])
         said = run.stdout.strip() + run.stderr.strip()
         group.result(f"tests/linkages/{script} 1 {count}", None if run.returncode == 0 else said)
     group.end()
@@ -208,28 +212,31 @@ def published_cases():
     group.end()
 
 
-def run_deck(group, build, deck, out):
+def run_deck(group, build, deck, out, options=(), environment=None):
     """Run a deck; status 1 (some rows could not be computed) is no failure here, for the tables tell."""
-    run = execute([program(build), "--out", out, deck])
+    run = execute([program(build), *options, "--out", out, deck], environment=environment)
     if run.returncode in (0, 1):
         return True
     group.result(f"{deck} ({build})", f"ended with status {run.returncode}\n{run.stderr.strip()}")
     return False
 
 
-def goldens(build):
-    group = Group(f"goldens, {build}")
+def goldens(build, environment=None):
+    """The tables of inputs/ are those kept, on this processor or on another one."""
+    where = ", oldest processor" if environment else ""
+    group = Group(f"goldens, {build}{where}")
+    group.result("compare_tables.py --self-check", "\n".join(compare_tables.self_check()) or None)
     for deck in sorted(glob(os.path.join("inputs", "*.deck"))):
         case = base_name(deck)
         kept = os.path.join("tests", "golden", case)
-        out = fresh("golden", build)
+        out = fresh("oldest" if environment else "golden", build)
         if not os.path.isdir(kept):
             group.result(deck, f"no {kept}/; say: make golden CASE={case}")
-        elif run_deck(group, build, deck, out):
+        elif run_deck(group, build, deck, out, environment=environment):
             old, new = ({os.path.basename(table) for table in glob(os.path.join(folder, "*.dat"))}
                         for folder in (kept, os.path.join(out, case)))
             for table in sorted(old | new):
-                name = f"{kept}/{table} ({build})"
+                name = f"{kept}/{table} ({build}{where})"
                 if table not in new:
                     group.result(name, "the program does not write it any more")
                 elif table not in old:
@@ -244,11 +251,11 @@ def goldens(build):
 
 
 def repeated_runs():
-    """The same deck gives the same bytes."""
-    group = Group("the same bytes twice")
+    """The same deck gives the same bytes, on several threads as well."""
+    group = Group("the same bytes, 1 and 3 threads")
     for deck in sorted(glob(os.path.join("inputs", "*.deck"))):
-        folders = [fresh("twice", which) for which in ("first", "second")]
-        if not all(run_deck(group, "release", deck, folder) for folder in folders):
+        folders = [fresh("twice", which) for which in ("1", "3")]
+        if not all(run_deck(group, "release", deck, folder, ["--threads", os.path.basename(folder)]) for folder in folders):
             continue
         folders = [os.path.join(folder, base_name(deck)) for folder in folders]
         names = [sorted(os.listdir(folder)) for folder in folders]
@@ -257,6 +264,17 @@ def repeated_runs():
             continue
         different = filecmp.cmpfiles(*folders, names[0], shallow=False)
         group.result(deck, f"not the same: {' '.join(different[1] + different[2])}" if different[1] + different[2] else None)
+    group.end()
+
+
+def threads():
+    """Variants on threads; `make check-all` runs all decks, more often."""
+    group = Group("threads, release")
+    run = execute([sys.executable, "-B", os.path.join("tests", "stress", "run_threads.py"), os.path.join("tests", "threads", "limits.deck"),
+                   os.path.join("tests", "threads", "sizing.deck"), "--program", program("release"), "--runs", "40", "--seconds", "2",
+                   "--scratch", fresh("threads")])
+    said = run.stdout.strip() + run.stderr.strip()
+    group.result("tests/stress/run_threads.py", None if run.returncode == 0 else said)
     group.end()
 
 
@@ -299,7 +317,8 @@ def main(tests):
     jobs = [(unit_tests, build, tests) for build in BUILDS]
     jobs += [(assertions, build, tests) for build in of_assertions] + [(layers,), (documents,)]
     jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS] + [(repeated_runs,)]
-    jobs += [(random_loads,), (linkages_that_vibrate,), (published_cases,)]
+    jobs += [(goldens, "release", OLDEST), (threads,)]
+    jobs += [(random_linkages,), (linkages_that_vibrate,), (published_cases,)]
     jobs += [(scripts, build) for build in BUILDS]
     # Two at once: unit tests take one processor, and decks of one speed, too.
     with multiprocessing.Pool(min(2, os.cpu_count())) as pool:

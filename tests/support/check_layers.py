@@ -18,12 +18,15 @@ INTRINSIC = {"iso_fortran_env", "iso_c_binding", "ieee_arithmetic", "ieee_except
 FOREIGN = {"mpi_f08": "ranks_mpi"}  # a module of a library, and the one file that may use it
 
 
-def statements(path):
-    """Line number and text of each statement: continued lines joined, comments and the insides of strings taken out."""
+def statements(path, directives=False):
+    """Line number and text of each statement: continued lines joined, comments and the insides of strings taken out.
+    OpenMP's directives are statements if they are asked for."""
     text, first, quote = "", 0, None
     with open(path, encoding="utf-8") as source:
         for number, line in enumerate(source, 1):
             line = line.rstrip("\n")
+            if directives and re.match(r"\s*!\$omp\b", line):
+                line = line.replace("!$omp", " " if text else "\0$omp", 1)
             if text:
                 line = re.sub(r"^\s*&", "", line)
             kept = ""
@@ -46,7 +49,7 @@ def statements(path):
             quote = None
             for part in text.split(";"):
                 if part.strip():
-                    yield first, part.strip().lower()
+                    yield first, part.strip().lower().replace("\0", "!")
             text = ""
 
 

@@ -9,7 +9,7 @@ module progress
   implicit none (type, external)
   private
 
-  public :: progress_t, start_progress, show_progress, end_progress, progress_text
+  public :: progress_t, start_progress, show_progress, end_progress, write_progress
 
   !> A progress line; silent until it is started.
   type :: progress_t
@@ -54,8 +54,8 @@ contains
     call note_progress(progress%pace, time, done, total)
     if (now - progress%last < rate) return
     progress%last = now
-    line = progress_text(progress%name, progress%noun, done, total, &
-      seconds_left(progress%pace, time, done))
+    call write_progress(progress%name, progress%noun, done, total, seconds_left(progress%pace, &
+      time, done), line)
     write (error_unit, "(a)", advance="no") achar(13)//line//repeat(" ", max(0, progress%shown - &
       len(line)))
     flush (error_unit)
@@ -63,17 +63,17 @@ contains
   end subroutine show_progress
 
   !> `name: 34 % (680 of 2000 variants), about 2 min left`
-  pure function progress_text(name, noun, done, total, seconds) result(line)
+  pure subroutine write_progress(name, noun, done, total, seconds, line)
     character(len=*), intent(in) :: name !! of the deck
     character(len=*), intent(in) :: noun !! what is counted
     integer, intent(in) :: done, total   !! number of things done, and of all
     real(wp), intent(in) :: seconds      !! that are left; below 0: not known
-    character(len=:), allocatable :: line
+    character(len=:), allocatable, intent(out) :: line
 
     line = name//": "//to_string(int(100.0_wp*done/max(1, total)))//" % ("//to_string(done)// &
       " of "//to_string(total)//" "//noun//")"
-    if (seconds >= 0.0_wp) line = line//", "//time_left_text(seconds)
-  end function progress_text
+    if (seconds >= 0.0_wp) line = line//", "//trim(time_left_text(seconds))
+  end subroutine write_progress
 
   !> Wipes out the line.
   subroutine end_progress(progress)

@@ -55,10 +55,10 @@ contains
       real(pace%total - done, wp)/real(done - pace%done(1), wp)
   end function seconds_left
 
-  !> `about 40 s left`, `about 2 min left`, `about 3.5 h left`; empty if the time is not known.
+  !> `about 40 s left`, `about 2 min left`, `about 3.5 h left`; blank if the time is not known.
   pure function time_left_text(seconds) result(text)
     real(wp), intent(in) :: seconds !! below 0: not known
-    character(len=:), allocatable :: text
+    character(len=20) :: text
 
     real(wp), parameter :: minute = 60.0_wp, hour = 3600.0_wp, day = 86400.0_wp
 

@@ -88,6 +88,7 @@ program stress_responses
   !$omp end parallel do
   close (unit)
   call report(results)
+  print "(i0, a, i0, a)", count(results%verdict /= violated), " passed, ", count(results%verdict == violated), " failed"
   if (any(results%verdict == violated)) stop 1, quiet=.true.
 
 contains

@@ -47,6 +47,7 @@ program stress_stability
     print "(i8, 2a)", reasons(number)%times, " times: ", reasons(number)%text
   end do
   print "(i0, a)", contradictions, " contradictions"
+  print "(i0, a, i0, a)", verdicts - contradictions, " passed, ", contradictions, " failed"
   if (contradictions > 0) stop 1
 
 contains

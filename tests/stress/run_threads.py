@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Runs decks on several threads, again and again: their files must be the same bytes as on one.
+
+    run_threads.py [DECK ...] --program PATH [--runs N] [--seconds S] [--scratch DIR]
+
+Without decks all of inputs/, and all of them once more with a length of a link that varies. A deck is run `--runs` times at most, on
+2, 3 and 7 threads in turn, until that has taken `--seconds`, but once on each at least. Prints `not ok DECK: why`, and in the end
+`N passed, N failed`, of runs.
+"""
+
+import argparse
+import filecmp
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from glob import glob
+
+THREADS = (2, 3, 7)
+ANYWHERE = {"run.log", "summary.json"}  # these have times
+
+
+def varied(text):
+    """A deck with VARY instead of the first length of a link that is a bare number, in 24 steps up to a hundredth; None if it
+    has none, or varies already."""
+    found = re.search(r"(?m)^LINK\b.*?\blength=([\d.]+)(?=\s|$)", text)
+    if not found or re.search(r"(?m)^VARY\b", text):
+        return None
+    length = float(found[1])
+    text = text[:found.start(1)] + "$threads_length" + text[found.end(1):]
+    values = " ".join(f"{length*(1 + i/2400):.9g}" for i in range(25))
+    return re.sub(r"(?m)^(UNITS\b.*)$", rf"\1\nVARY threads_length {values}", text, count=1)
+
+
+def execute(program, deck, threads, out):
+    """Status of a run, and the folder of its tables."""
+    shutil.rmtree(out, ignore_errors=True)
+    status = subprocess.run([program, "--quiet", "--threads", str(threads), "--out", out, deck], stdin=subprocess.DEVNULL,
+                            capture_output=True, timeout=1200, check=False).returncode
+    found = glob(os.path.join(out, "*", ""))
+    return status, found[0] if found else out
+
+
+def difference(first, second):
+    """What differs between the files of two runs."""
+    if first[0] != second[0]:
+        return f"status {second[0]}, not {first[0]}"
+    names = [{name for name in os.listdir(folder)} - ANYWHERE if os.path.isdir(folder) else set() for _, folder in (first, second)]
+    if names[0] != names[1]:
+        return f"files {sorted(names[1])}, not {sorted(names[0])}"
+    _, wrong, lost = filecmp.cmpfiles(first[1], second[1], names[0], shallow=False)
+    return f"other bytes in {' '.join(sorted(wrong + lost))}" if wrong or lost else None
+
+
+def examine(options, deck, name):
+    """Numbers of right and of wrong runs of a deck."""
+    begun = time.time()
+    alone = execute(options.program, deck, 1, os.path.join(options.scratch, "alone"))
+    counts, reasons = [0, 0], set()
+    for i in range(max(options.runs, len(THREADS))):
+        if i >= len(THREADS) and time.time() - begun > options.seconds:
+            break
+        threads = THREADS[i % len(THREADS)]
+        why = difference(alone, execute(options.program, deck, threads, os.path.join(options.scratch, "together")))
+        counts[why is not None] += 1
+        if why and why not in reasons:
+            reasons.add(why)
+            print(f"not ok {name}: {why} with {threads} threads", flush=True)
+    return counts
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("decks", nargs="*")
+    parser.add_argument("--program", default=os.path.join("build", "release", "flexmech"))
+    parser.add_argument("--runs", type=int, default=9)
+    parser.add_argument("--seconds", type=float, default=20.0)
+    parser.add_argument("--scratch")
+    options = parser.parse_args()
+    options.program = os.path.abspath(options.program)
+    options.scratch = os.path.abspath(options.scratch or tempfile.mkdtemp(prefix="threads"))
+    total = [0, 0]
+    for deck in options.decks or sorted(glob(os.path.join("inputs", "*.deck")) + glob(os.path.join("tests", "threads", "*.deck"))):
+        with open(deck, encoding="utf-8") as file:
+            text = varied(file.read())
+        jobs = [(deck, deck)]
+        # Tables of parts and files included are beside the deck.
+        of_variants = os.path.join(os.path.dirname(deck), f".threads_{os.getpid()}.deck")
+        if text and not options.decks:
+            jobs.append((of_variants, f"{deck} with VARY"))
+        try:
+            if text:
+                with open(of_variants, "w", encoding="utf-8") as file:
+                    file.write(text)
+            for path, name in jobs:
+                total = [a + b for a, b in zip(total, examine(options, path, name))]
+        finally:
+            if os.path.exists(of_variants):
+                os.remove(of_variants)
+    shutil.rmtree(options.scratch, ignore_errors=True)
+    print(f"{total[0]} passed, {total[1]} failed")
+    return 1 if total[1] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

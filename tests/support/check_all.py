@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Runs the slow families of tests, `make check-all`: a line each, the count at the end.
+
+    check_all.py [WORD ...]     only those with one of the words in their titles
+
+What a family prints is in build/check-all/TITLE.log. Its last line of the form `N passed, N failed` counts; a family that has none,
+or ends with another status than 0 without a failure, has failed. Exit status 1 when anything has.
+"""
+
+import os
+import re
+import subprocess
+import sys
+import time
+
+PROGRAM = "build/release/flexmech"
+SCRATCH = os.path.join("build", "check-all")
+PYTHON = [sys.executable, "-B"]
+LONGEST = 7200  # seconds
+
+# Title and command; {program} is the release build, {threads} the number of processors.
+FAMILIES = [
+    ("threads", "tests/stress/run_threads.py --runs 200 --program {program}"),
+    ("fuzz", "tests/support/fuzz.py 3000 1"),
+    ("memory", "tests/support/check_memory.py"),
+    ("linkages, known", "tests/linkages/anchors.py --program {program}"),
+    ("linkages, random", "tests/linkages/random_linkages.py 1 300 --program {program}"),
+    ("linkages in motion", "tests/linkages/random_motions.py 1 300 --program {program}"),
+    ("loads", "tests/linkages/random_loads.py 1 400 --program {program}"),
+    ("loads in motion", "tests/linkages/random_load_motions.py 1 200 --program {program}"),
+    ("vibrations, exact", "tests/linkages/exact_frequencies.py --program {program}"),
+    ("vibrations, random", "tests/linkages/random_vibrations.py 1 300 --program {program}"),
+    ("vibrations, many links", "tests/linkages/random_vibrations.py 1 16 --kind many --program {program}"),
+    ("vibrations, slotted", "tests/linkages/random_vibrations.py 1 60 --kind slotted --program {program}"),
+    ("accuracies", "tests/stress/compare_accuracies.py {program} --frequencies 20000 --seed 1"),
+    ("stress", "tests/stress/run_stress.py {program} --every 4 --no-figures"),
+    ("stress of responses", "build/release/stress/responses 420 {threads} build/check-all/responses.dat 1"),
+    ("stress of stability", "build/release/stress/stability 10 25 {threads} 1"),
+]
+
+
+def run(title, command):
+    """Passed and failed cases of a family."""
+    words = command.format(program=PROGRAM, threads=os.cpu_count()).split()
+    log = os.path.join(SCRATCH, re.sub(r"\W+", "_", title) + ".log")
+    begun = time.time()
+    with open(log, "w", encoding="utf-8") as file:
+        try:
+            status = subprocess.run((PYTHON if words[0].endswith(".py") else []) + words, stdin=subprocess.DEVNULL, stdout=file,
+                                    stderr=subprocess.STDOUT, timeout=LONGEST, check=False).returncode
+        except (OSError, subprocess.TimeoutExpired) as failure:
+            status = -1
+            file.write(f"{failure}\n")
+    with open(log, encoding="utf-8", errors="replace") as file:
+        counts = re.findall(r"(\d+) passed, +(\d+) failed", file.read())
+    passed, failed = (int(number) for number in counts[-1]) if counts else (0, 0)
+    wrong = status != 0 and failed == 0 or not counts
+    failed += wrong
+    print(f"{title:<32}{passed:7d} passed, {failed:3d} failed {time.time() - begun:7.0f} s"
+          + (f"   status {status}, see {log}" if wrong else f"   see {log}" if failed else ""), flush=True)
+    return passed, failed
+
+
+def main(words):
+    os.makedirs(SCRATCH, exist_ok=True)
+    counts = [run(title, command) for title, command in FAMILIES if not words or any(word in title for word in words)]
+    passed, failed = (sum(one[i] for one in counts) for i in (0, 1))
+    print(f"{passed} passed, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
