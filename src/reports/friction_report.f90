@@ -50,7 +50,8 @@ contains
       "starts the linkage from rest against full friction and resistances, with loads of this "// &
       "direction of the motion; 0 where none can")
     call append_string(notes, "verdict: at rest without its drive the linkage holds, or runs "// &
-      "forward or backward, or in either sense once it is pushed; it locks in the senses in which no drive can move it")
+      "forward or backward, or in either sense once it is pushed; it locks in the senses in "// &
+      "which no drive can move it")
     counts = 0
     associate (places => variant%found%positions)
       positions = size(places%crank)
