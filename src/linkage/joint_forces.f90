@@ -27,6 +27,9 @@ module joint_forces
                                               !! normal of the line [N]
     real(wp), allocatable :: couple(:)        !! (turns) moment on its body from the other one [N m]
     real(wp), allocatable :: drive(:)         !! (drives) torque or force of each [N m] or [N]
+    real(wp), allocatable :: friction(:)      !! (frictions) couple on the body, or force along the
+                                              !! line on the pin [N m] or [N]; not allocated where
+                                              !! nothing rubs
   end type joint_forces_t
 
 contains

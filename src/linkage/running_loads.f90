@@ -124,6 +124,7 @@ contains
     else
       running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load)
     end if
+    running%joints%friction = running%friction%effort
   end subroutine find_running_loads
 
   !> Velocities at a speed of the first drive; no accelerations.

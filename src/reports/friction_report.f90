@@ -17,10 +17,10 @@ module friction_report
   public :: friction_notes, holding_notes, holding_words, add_friction, add_holding
 
   !> What a linkage at rest does without its drive, or that no drive can move it.
-  character(len=*), parameter :: verdicts(6) = [character(len=14) :: "holds", "runs_forward", &
-    "runs_backward", "locks_forward", "locks_backward", "locks"]
-  integer, parameter :: holds = 1, runs_forward = 2, runs_backward = 3, locks_forward = 4, &
-    locks_backward = 5, locks_both = 6
+  character(len=*), parameter :: verdicts(7) = [character(len=14) :: "holds", "runs_forward", &
+    "runs_backward", "runs", "locks_forward", "locks_backward", "locks"]
+  integer, parameter :: holds = 1, runs_forward = 2, runs_backward = 3, runs_both = 4, &
+    locks_forward = 5, locks_backward = 6, locks_both = 7
 
 contains
 
@@ -50,7 +50,8 @@ contains
       "starts the linkage from rest against full friction and resistances, with loads of this "// &
       "direction of the motion; 0 where none can")
     call append_string(notes, "verdict: at rest without its drive the linkage holds, or runs "// &
-      "forward or backward; it locks in the senses in which no drive can move it")
+      "forward or backward, or in either sense once it is pushed; it locks in the senses in "// &
+      "which no drive can move it")
     counts = 0
     associate (places => variant%found%positions)
       positions = size(places%crank)
@@ -76,7 +77,8 @@ contains
     type(name_list_t) :: list
 
     list%column = "verdict"
-    list%names = word_list("holds runs_forward runs_backward locks_forward locks_backward locks")
+    list%names = word_list("holds runs_forward runs_backward runs locks_forward locks_backward "// &
+      "locks")
   end function holding_words
 
   !> Appends the rows of a position and speed, one per joint that rubs.
@@ -156,6 +158,8 @@ contains
           verdict = locks_forward
         else if (locked(backward_sense)) then
           verdict = locks_backward
+        else if (forward < 0.0_wp .and. backward > 0.0_wp) then
+          verdict = runs_both
         else if (forward < 0.0_wp) then
           verdict = runs_forward
         else if (backward > 0.0_wp) then

@@ -19,7 +19,12 @@ module joints_report
 
   public :: joints_notes, joint_owners, owner_cell, add_joints, drives_notes, drive_names, &
     drive_columns, add_drives, add_shaking, reference_words, open_words, &
-    add_open_row
+    add_open_row, friction_note
+
+  !> Where friction is in the columns, of a linkage with FRICTION cards.
+  character(len=*), parameter :: friction_note = "friction: within fx and fy of a block along "// &
+    "its line, within moment in a pin, on both links or on the guide of the block; a ground "// &
+    "pivot bears the opposite"
 
 contains
 
@@ -32,6 +37,7 @@ contains
       "the guide on the pin; of a block on a link: by the block on that link")
     call append_string(notes, "moment: on the link, of a weld or of a block on which it cannot "// &
       "turn; counter-clockwise positive")
+    if (size(variant%model%frictions) > 0) call append_string(notes, friction_note)
     call append_string(notes, acceleration_note(variant%model))
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine joints_notes

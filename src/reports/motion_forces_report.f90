@@ -1,7 +1,7 @@
 !> `motion_forces.dat`: the forces in the joints of a linkage that is no four-bar, while it moves
 !! under its motor and loads.
 module motion_forces_report
-  use joints_report, only: add_open_row, owner_cell
+  use joints_report, only: add_open_row, friction_note, owner_cell
   use kinds, only: wp
   use load_notes, only: append_load_notes
   use motion_report, only: time_in_table
@@ -29,6 +29,7 @@ contains
       "on a link: by the block on that link")
     call append_string(notes, "moment: on the link, of a weld or of a block on which it cannot "// &
       "turn; counter-clockwise positive")
+    if (size(variant%model%frictions) > 0) call append_string(notes, friction_note)
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine motion_forces_notes
 

@@ -63,7 +63,8 @@ contains
       call append_string(notes, "forces of joints: on the link at the pin, as in bearings.dat; "// &
         "angle_at_peak: of the force in the axes of the link")
       call append_string(notes, "power: of the drive on the linkage, positive where it drives; "// &
-        "error: estimated, as a share of the peak, from half as many samples")
+        "error: estimated, as a share of the peak, from half as many samples; of "// &
+        "angle_at_peak in deg, where the peak is flat")
       if (is_geared(variant%model%motor)) call append_string(notes, "motor: at its shaft, "// &
         "before its gear, with the losses there and, under an acceleration, its rotor; drive "// &
         variant%model%drives(1)%subject%text//": behind the gear")
@@ -89,7 +90,8 @@ contains
       "acts as one; without the losses in its gear")
     call append_string(notes, "energy_of_cycle: greatest less least of the integral of "// &
       "(mean_torque - torque of the loads); fluctuation_without: without a flywheel; "// &
-      "greatest_rate, least_rate: with it")
+      "greatest_rate, least_rate: with it; error: a share of the value, of mean_torque of "// &
+      "peak_torque")
   end subroutine append_flywheel_notes
 
   !> The words in the columns `part`, `pin`, `quantity` and `unit`.
@@ -208,7 +210,7 @@ contains
       call put_rows(variant, layout, speed, owner_cell(variant, joint, column_width(layout, 2))// &
         name_cell(variant%mechanism%pin_names(joint%pin)%text, column_width(layout, 3)), &
         [value_t("peak_force", sized%peak, "force", sized%crank, sized%error), &
-        value_t("angle_at_peak", sized%angle, "deg", sized%crank), &
+        value_t("angle_at_peak", sized%angle, "deg", sized%crank, sized%angle_error), &
         value_t("rms_force", sized%rms, "force", error=sized%error), &
         value_t("mean_force", sized%mean, "force", error=sized%error), &
         value_t("cubic_mean_force", sized%cubic, "force", error=sized%error)], rows)
@@ -237,8 +239,7 @@ contains
         value_t("fluctuation", flywheel%fluctuation, "1"), &
         value_t("greatest_rate", flywheel%greatest, "rate", flywheel%at_greatest/degree), &
         value_t("least_rate", flywheel%least, "rate", flywheel%at_least/degree)]
-      values%error = merge(sizing%alone_error, sizing%flywheel_error, values%quantity == &
-        "fluctuation_without")
+      values%error = sizing%flywheel_error
       call put_rows(variant, layout, speed, name_cell(flywheel_word, column_width(layout, 2))// &
         name_cell(no_pin, column_width(layout, 3)), pack(values, flywheel%moves_alone .or. &
         values%quantity /= "fluctuation_without"), rows)

@@ -26,6 +26,9 @@ module friction_study
   !> Senses of the first drive in which it may start.
   integer, parameter :: forward_sense = 1, backward_sense = 2
 
+  !> A torque below this share of its parts has no sign: it is round-off.
+  real(wp), parameter :: round_off = 1.0e-12_wp
+
   type :: friction_result_t
     integer, allocatable :: first(:)            !! (joints) number of the first friction of each
     real(wp), allocatable :: values(:, :, :, :) !! (friction_values, joints, speeds, states)
@@ -102,8 +105,12 @@ contains
             running, failure, of_start)
           if (allocated(failure)) exit
           found%start_lock(k, i) = lock_of(running)
-          if (found%start_lock(k, i)%friction == 0) found%start(k, i) = &
-            loads%unit%of_case(constant_case)%joints%torque + running%joints%torque
+          if (found%start_lock(k, i)%friction > 0) cycle
+          associate (constant => loads%unit%of_case(constant_case)%joints%torque, &
+              moving => running%joints%torque)
+            if (abs(constant + moving) > round_off*(abs(constant) + abs(moving))) &
+              found%start(k, i) = constant + moving
+          end associate
         end do
         if (allocated(failure)) found%outcome(i)%error = failure
       end associate

@@ -230,8 +230,8 @@ contains
     end do
   end function joint_values
 
-  !> Forces and moments of one unit load. That of a slider is along the normal of its line: its
-  !! first component alone, until `turn_guides` turns it.
+  !> Forces and moments of one unit load. That of a slider is along the normal of its line, its
+  !! first component, and by friction along the line, its second, until `turn_guides` turns it.
   pure subroutine take_forces(linkage, joints, forces, values_of)
     type(linkage_t), intent(in) :: linkage
     type(joint_t), intent(in) :: joints(:)
@@ -264,7 +264,40 @@ contains
         end do
       end associate
     end do
+    if (allocated(forces%friction)) call take_friction(linkage, joints, forces%friction, values_of)
   end subroutine take_forces
+
+  !> Adds what rubs: along the line of a slider, and couples of a pin to the moments on both of its
+  !! links, or on a link and on the block on which it turns, which the body of the line or the guide
+  !! bears; a ground pivot has no row.
+  pure subroutine take_friction(linkage, joints, effort, values_of)
+    type(linkage_t), intent(in) :: linkage
+    type(joint_t), intent(in) :: joints(:)
+    real(wp), intent(in) :: effort(:)          !! (frictions) of `joint_forces_t`
+    real(wp), intent(inout) :: values_of(:, :) !! (3, joints)
+
+    integer :: i, k
+
+    do k = 1, size(effort)
+      associate (rub => linkage%frictions(k))
+        do i = 1, size(joints)
+          associate (joint => joints(i))
+            if (joint%pin /= rub%pin) cycle
+            if (rub%slider > 0) then
+              if (joint%slider == rub%slider) values_of(2, i) = values_of(2, i) + effort(k)
+            else if (joint%body == 0) then
+              ! By the guide on the block, against the couple by the link.
+              if (rub%against == 0) values_of(3, i) = values_of(3, i) + effort(k)
+            else if (joint%body == rub%body) then
+              values_of(3, i) = values_of(3, i) + effort(k)
+            else if (joint%body == rub%against) then
+              values_of(3, i) = values_of(3, i) - effort(k)
+            end if
+          end associate
+        end do
+      end associate
+    end do
+  end subroutine take_friction
 
   !> Forces of sliders from the axes of their lines to global axes; those on the body of a line are
   !! opposite to those on the pin. The force of a drive along the line belongs to the drive.
@@ -286,7 +319,7 @@ contains
         normal = [-axis(2), axis(1)]
       end associate
       do k = 1, size(force, 3)
-        force(:2, i, k) = force(1, i, k)*normal
+        force(:2, i, k) = force(1, i, k)*normal + force(2, i, k)*axis
       end do
     end do
   end subroutine turn_guides

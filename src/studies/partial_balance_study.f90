@@ -243,7 +243,12 @@ contains
     found%idle = [found%idle, pack(request%bodies, is_idle)]
     kept = pack([(i, i=1, size(weights))], .not. is_idle)
     n = size(kept)
-    if (n == 0) return
+    if (n == 0) then
+      ! Nothing helps: the sum is that without counterweights.
+      found%minimum%value = sum((given*spread(row, 2, samples))**2)
+      found%minimum%is_least = norm2(parts(:, 3, :, :)) <= rounding*norm2(parts)
+      return
+    end if
     allocate (problem%along(4*samples, 2*n), problem%by_length(4*samples, n))
     do i = 1, n
       problem%along(:, 2*i - 1) = reshape(parts(:, 1, kept(i), :), [4*samples])

@@ -32,6 +32,13 @@ module sizing_study
   !> A joint whose rate is below this share of that of the linkage is at rest: it is round-off.
   real(wp), parameter :: rest = 1.0e-12_wp
 
+  !> Values of a flywheel: mean torque, energy, fluctuation without it, its inertia, fluctuation
+  !! with it, greatest and least speed.
+  integer, parameter :: flywheel_values = 7
+
+  !> Where the peak of a force is flat nothing tells it from positions so near [deg].
+  real(wp), parameter :: flatness = 1.0e-4_wp
+
   !> What is asked for.
   type :: sizing_request_t
     real(wp), allocatable :: speed(:)    !! (speeds) of the first drive [rad/s] or [m/s]
@@ -58,6 +65,7 @@ module sizing_study
     real(wp) :: turned_cubic = 0.0_wp !! cubic mean weighted by how fast it does [N]
     real(wp) :: turned_error = 0.0_wp !! of it, estimated, as a share of the peak [-]
     real(wp) :: error = 0.0_wp  !! of peak and other means, estimated, as a share of the peak [-]
+    real(wp) :: angle_error = 0.0_wp !! of the angle, estimated [deg]
   end type sized_t
 
   !> At one speed.
@@ -65,8 +73,10 @@ module sizing_study
     type(sized_t), allocatable :: sized(:)  !! drives, the motor if it has a gear, then joints
     logical :: has_flywheel = .false.       !! `flywheel` is found
     type(flywheel_t) :: flywheel            !! on the first drive
-    real(wp) :: flywheel_error = 0.0_wp     !! of its inertia, estimated [-]
-    real(wp) :: alone_error = 0.0_wp        !! of the fluctuation without it, estimated [-]
+    type(flywheel_t) :: between             !! the same from the samples between
+    real(wp) :: flywheel_error(flywheel_values) = 0.0_wp !! of the values of `values_of_flywheel`,
+                                            !! estimated, shares of these; of the mean torque of
+                                            !! the peak of the first drive [-]
   end type sizing_t
 
   type :: sizing_result_t
@@ -323,12 +333,13 @@ contains
     type(sized_t), intent(inout) :: sized
     type(elastic_division_t), intent(in), optional :: division
 
-    integer, parameter :: most_peaks = 3
+    integer, parameter :: most_peaks = 3, constant_angles = 8
     real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
     ! A peak is flat: this close to it [deg] the value is exact to the last digits.
     real(wp), parameter :: near = 1.0e-6_wp
     real(wp) :: height(size(values)), a, b, x(2), y(2), step
     integer :: at, k
+    logical :: is_constant
 
     step = period/size(values)
     height = abs(values)
@@ -337,7 +348,8 @@ contains
     sized%crank = step*(at - 1)
     height = merge(height, 0.0_wp, height >= cshift(height, 1) .and. height >= cshift(height, -1))
     ! A force that is constant has no peak to look for.
-    if (maxval(abs(values)) - minval(abs(values)) <= 1.0e-12_wp*abs(sized%peak)) height = 0.0_wp
+    is_constant = maxval(abs(values)) - minval(abs(values)) <= 1.0e-12_wp*abs(sized%peak)
+    if (is_constant) height = 0.0_wp
     do k = 1, most_peaks
       at = maxloc(height, dim=1)
       if (height(at) <= 0.0_wp) exit
@@ -362,7 +374,16 @@ contains
       sized%peak = y(at)
       sized%crank = modulo(x(at), period)
     end do
-    if (sized%joint > 0) sized%angle = angle_at(sized%crank)
+    if (sized%joint == 0) return
+    sized%angle = angle_at(sized%crank)
+    if (is_constant) then
+      ! Any position may be that of the peak.
+      sized%angle_error = maxval([(between_angles(angle_at(period*k/constant_angles), &
+        sized%angle), k=1, constant_angles)])
+    else
+      sized%angle_error = between_angles(angle_at(sized%crank + flatness), sized%angle)
+    end if
+    sized%angle_error = sized%angle_error + round_off_share*180.0_wp
 
   contains
 
@@ -429,10 +450,13 @@ contains
       if (size(lagrange%running_load, 1) > 0) load = load + lagrange%running_load(k, :)
       found%at_speed(k)%has_flywheel = .true.
       ! The rotor of the motor is a flywheel, too.
-      found%at_speed(k)%flywheel = size_flywheel(lagrange%terms%inertia + &
-        request%gear%ratio**2*request%gear%rotor, &
-        lagrange%terms%inertia_slope, load, found%period*degree, request%speed(k), &
-        request%fluctuation)
+      associate (inertia => lagrange%terms%inertia + request%gear%ratio**2*request%gear%rotor, &
+          slope => lagrange%terms%inertia_slope)
+        found%at_speed(k)%flywheel = size_flywheel(inertia, slope, load, found%period*degree, &
+          request%speed(k), request%fluctuation)
+        found%at_speed(k)%between = size_flywheel(cshift(inertia, 1), cshift(slope, 1), &
+          cshift(load, 1), found%period*degree, request%speed(k), request%fluctuation)
+      end associate
     end do
   end subroutine find_flywheels
 
@@ -451,16 +475,52 @@ contains
           a%error = max(abs(abs(a%peak) - abs(b%peak)), abs(a%rms - b%rms), abs(a%mean - b%mean), &
             abs(a%cubic - b%cubic))/max(abs(a%peak), tiny(1.0_wp))
           a%turned_error = abs(a%turned_cubic - b%turned_cubic)/max(abs(a%peak), tiny(1.0_wp))
+          a%angle_error = max(a%angle_error, between_angles(a%angle, b%angle))
           change = max(change, a%error)
         end associate
       end do
       if (.not. now(k)%has_flywheel) cycle
-      associate (a => now(k)%flywheel, b => last(k)%flywheel)
-        now(k)%flywheel_error = abs(a%inertia - b%inertia)/max(a%inertia, b%inertia, tiny(1.0_wp))
-        now(k)%alone_error = abs(a%alone - b%alone)/max(a%alone, b%alone, tiny(1.0_wp))
-        change = max(change, now(k)%flywheel_error)
-      end associate
+      call compare_flywheels(now(k), last(k), change)
     end do
   end function largest_change
+
+  !> Errors of a flywheel: from half as many samples, and from those between. The latter miss the
+  !! extremes, and the mean of 1/ω, by the opposite of what the former do, so that the errors of
+  !! both are not small by chance together.
+  pure subroutine compare_flywheels(now, last, change)
+    type(sizing_t), intent(inout) :: now
+    type(sizing_t), intent(in) :: last
+    real(wp), intent(inout) :: change
+
+    real(wp), parameter :: rounding = 32.0_wp*epsilon(1.0_wp)
+    real(wp), dimension(flywheel_values) :: here, scale, least
+
+    here = values_of_flywheel(now%flywheel)
+    scale = max(abs(here), tiny(1.0_wp))
+    scale(1) = max(abs(now%sized(1)%peak), abs(here(1)), tiny(1.0_wp))
+    now%flywheel_error = max(abs(here - values_of_flywheel(now%between)), &
+      abs(here - values_of_flywheel(last%flywheel)))/scale
+    ! Differences of speeds have the rounding of the speeds.
+    least = rounding
+    least([3, 4, 5]) = rounding/max(here([3, 5, 5]), rounding)
+    change = max(change, maxval(now%flywheel_error, mask=now%flywheel_error > 10.0_wp*least))
+    now%flywheel_error = now%flywheel_error + least
+  end subroutine compare_flywheels
+
+  pure function values_of_flywheel(flywheel) result(values)
+    type(flywheel_t), intent(in) :: flywheel
+    real(wp) :: values(flywheel_values)
+
+    values = [flywheel%mean_torque, flywheel%energy, flywheel%alone, flywheel%inertia, &
+      flywheel%fluctuation, flywheel%greatest, flywheel%least]
+  end function values_of_flywheel
+
+  !> Distance of two directions [deg].
+  elemental function between_angles(one, other) result(distance)
+    real(wp), intent(in) :: one, other !! [deg]
+    real(wp) :: distance
+
+    distance = abs(modulo(one - other + 180.0_wp, 360.0_wp) - 180.0_wp)
+  end function between_angles
 
 end module sizing_study

@@ -424,6 +424,24 @@ class Rub(Load):
             effects.append(((body, along, self.zero), -fx, -fy))
         return effects
 
+    def add_to_joints(self, s):
+        """The forces on links and pins of reactions.dat have friction along a line, and its couple in a pin."""
+        effort = self.effort(s, s.pressing[self])
+        if self.slider:
+            sine, cosine = self.line(s)
+            force = s.forces[self.pin, self.slider["guide"]]
+            if self.slider["guide"] not in self.model.guides:
+                effort = -effort
+            force[0] += effort * cosine
+            force[1] += effort * sine
+            return
+        s.forces[self.pin, self.body.name][2] += effort
+        here = next((slider for slider in self.model.deck.sliders if slider["pin"] == self.pin), None)
+        if self.against:
+            s.forces[self.pin, self.against.name][2] -= effort
+        elif here:
+            s.forces[self.pin, here["guide"]][2] += effort
+
     def has_potential(self):
         return False
 

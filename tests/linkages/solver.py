@@ -634,6 +634,8 @@ class Model:
             change = max(abs(after[rub] - s.pressing[rub]) for rub in self.rubs)
             s.pressing = after
             if change <= small * max(after.values()):
+                for rub in self.rubs:
+                    rub.add_to_joints(s)
                 return
         raise Failure("friction does not settle")
 

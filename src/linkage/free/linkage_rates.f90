@@ -89,6 +89,8 @@ module linkage_rates
     type(load_t), allocatable :: body_load(:)    !! (bodies) of all loads, but for weights, constant
                                                  !! forces on pins and constant torques
     real(wp), allocatable :: pin_load(:, :)      !! (2, pins) likewise [N]
+    real(wp), allocatable :: friction(:)         !! (frictions) efforts [N m] or [N]; not allocated
+                                                 !! where nothing rubs
   end type linkage_instant_t
 
 contains
@@ -425,6 +427,7 @@ contains
         loading = loading + added
         call add_to(friction%body_load, body_load)
         pin_load = pin_load + friction%pin_load
+        instant%friction = friction%effort
       end if
     end associate
     instant%body_load = body_load

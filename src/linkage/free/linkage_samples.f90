@@ -163,6 +163,7 @@ contains
         loads)
       call forces_of_motion(whole, pose, equations, loads, details%driven%torque, &
         details%joints, details%imbalance)
+      if (allocated(instant%friction)) details%joints%friction = instant%friction
     end associate
   end subroutine find_details
 
