@@ -134,6 +134,7 @@ contains
         "crank has too many harmonics: a dead point is near")
       return
     end if
+    grid%tail = tail
     call move_alloc(coefficients, grid%harmonics)
     call resize(grid, samples)
   end subroutine find_harmonics
