@@ -27,7 +27,7 @@ module transient_cards
     integer :: mode = 0            !! of the perturbation; 0: none
     real(wp) :: amplitude = 0.0_wp !! of the perturbation [m]
     real(wp) :: velocity = 0.0_wp  !! of the perturbation [m/s]
-    logical :: may_lack = .true.   !! turns are given, or the card says why not
+    logical :: lacks_turns = .false. !! and no misspelt key may be these
     type(token_t) :: turns_word, crank_word, instants_word, start_word
   end type transient_card_t
 
@@ -42,8 +42,8 @@ contains
   pure subroutine read_transient(card, kind, known_keys, system, diagnostics, transient)
     type(card_t), intent(in) :: card                  !! the REPORT card
     type(report_kind_t), intent(in) :: kind           !! with the defaults of its keys
-    logical, intent(in) :: known_keys                 !! no key is unknown: a missing one is an
-                                                      !! error
+    logical, intent(in) :: known_keys                 !! no key is unknown: a missing one is
+                                                      !! not given
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(transient_card_t), intent(out) :: transient  !! as read
@@ -54,7 +54,7 @@ contains
 
     call read_entry_quantity(card, "turns", dimension_none, system, .false., diagnostics, &
       transient%turns, fine)
-    transient%may_lack = .not. known_keys .or. fine .or. has_key(card, "turns")
+    transient%lacks_turns = known_keys .and. .not. has_key(card, "turns")
     transient%turns_word = word_of("turns")
     transient%crank_word = word_of("crank")
     transient%instants_word = word_of("instants")

@@ -200,7 +200,7 @@ contains
     associate (asked => model%reports(number)%transient, without => model%without)
       if (has_law(model)) then
         call check_instants(asked, diagnostics, model)
-      else if (.not. asked%may_lack) then
+      else if (asked%lacks_turns) then
         call add_error(diagnostics, model%reports(number)%keyword, "'turns=' is missing; expected "// &
           dimension_name(dimension_none), kind=error_of_writing)
       end if
