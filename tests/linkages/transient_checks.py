@@ -170,9 +170,9 @@ def main():
 
     speed, ramp = 9.0, 0.11
     for parts, cards in ARMS.items():
-        deck = cards + f"DRIVE arm\nSPEED {speed} ramp={ramp}\nREPORT transient turns=0.21 instants=40 accuracy=1e-5\n"
+        deck = cards + f"DRIVE arm\nSPEED {speed} ramp={ramp}\nREPORT transient turns=0.12 instants=40 accuracy=1e-5\n"
         check(f"a ramp, {parts}", deck, lambda t, side: (speed * t / ramp, speed / ramp) if side < ramp else (speed, 0.0), zero, zero,
-              (ramp,), end=0.21 * 2 * math.pi / speed + ramp / 2)
+              (ramp,), end=0.12 * 2 * math.pi / speed + ramp / 2)
         start, stop, way = 0.02, 0.12, math.radians(50)
 
         def cycloidal(t, side):
@@ -181,9 +181,9 @@ def main():
             x, long = (t - start) / (stop - start), stop - start
             return way / long * (1 - math.cos(2 * math.pi * x)), way / long**2 * 2 * math.pi * math.sin(2 * math.pi * x)
 
-        law = cards + "DRIVE arm law=go\nTIME 0 to 0.16 step 0.008\nREPORT transient accuracy=1e-5\n"
+        law = cards + "DRIVE arm law=go\nTIME 0 to 0.14 step 0.007\nREPORT transient accuracy=1e-5\n"
         check(f"a law, {parts}", law + f"LAW go cycloidal from=10deg to=60deg start={start} stop={stop}\n", cycloidal, zero, zero,
-              (start, stop), end=0.16)
+              (start, stop), end=0.14)
 
         def even(t, side):
             return (way / (stop - start) if start < side < stop else 0.0, 0.0)
@@ -191,9 +191,9 @@ def main():
         rate = way / (stop - start)
         check(f"jumps of the speed, {parts}", law.replace("1e-5", "1e-3") +
               f"LAW go ramp from=10deg to=60deg start={start} stop={stop}\n", even, zero, zero, (start, stop),
-              ((start, rate), (stop, -rate)), end=0.16)
+              ((start, rate), (stop, -rate)), end=0.14)
         velocity, sense = 0.3, math.copysign(1, beam.tip[0])
-        deck = cards + "DRIVE arm\nSPEED 4\nREPORT transient turns=0.1 instants=100 accuracy=1e-4 perturb=1,"
+        deck = cards + "DRIVE arm\nSPEED 4\nREPORT transient turns=0.04 instants=200 accuracy=1e-4 perturb=1,"
         unit = [sense / abs(beam.tip[0])] + zero[1:]
         check(f"velocities of a mode, {parts}", deck + f"0,{velocity}\n", lambda t, side: (4.0, 0.0), zero, [velocity * x for x in unit])
         check(f"shape and velocities, {parts}", deck + f"0.001,{-velocity}\n", lambda t, side: (4.0, 0.0), [0.001 * x for x in unit],
