@@ -25,8 +25,8 @@ module model_reader
   use load_cards, only: force_card_t, read_force, read_gravity, read_torque, torque_card_t
   use materials, only: read_material
   use mesh_checks, only: check_meshes
-  use models, only: drives_length, has_gauge_histories, has_law, is_four_bar, is_loaded, is_moving, is_sprung, &
-    model_t, needs_mesh, report_number
+  use models, only: drives_length, has_gauge_histories, has_law, is_four_bar, is_loaded, &
+    is_moving, is_sprung, model_t, needs_mesh, report_number
   use motor_cards, only: read_motor
   use motor_checks, only: find_motor_line
   use process_cards, only: is_process_form, process_card_t, read_process_force, &

@@ -34,7 +34,8 @@ module models
 
   public :: model_t, report_number, report_with, needs_study, needs_positions, is_moving, &
     is_loaded, is_sprung, is_damped, needs_loads, needs_inertia, needs_frequencies, &
-    needs_response, has_gauge_histories, report_in_motion, steady_state_report, accuracy_of_study, needs_beams, &
+    needs_response, has_gauge_histories, report_in_motion, steady_state_report, &
+    accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
     link_line_density, speed_in_table, speed_in_words, is_four_bar, is_pin, pivots, &
     drives_length, balances, has_law
@@ -152,8 +153,8 @@ contains
     number = 0
   end function report_with
 
-  !> Whether REPORT transient, if there is one, is to have strains: GAUGE cards or REPORT strains ask
-  !! for them.
+  !> Whether REPORT transient, if there is one, is to have strains: GAUGE cards or REPORT strains
+  !! ask for them.
   pure function has_gauge_histories(model) result(has)
     type(model_t), intent(in) :: model !! as read
     logical :: has

@@ -103,7 +103,8 @@ contains
             associate (u => found%displacement(:, i, k), &
                 name => mechanism%response_points(i)%name)
               call add_row(rows, cells(layout, 1, [shown_rate(variant%model, &
-                found, speed, k), found%time(k), found%crank(k)])//name_cell(name, column_width(layout, 4))// &
+                found, speed, k), found%time(k), found%crank(k)])//name_cell(name, &
+                column_width(layout, 4))// &
                 cells(layout, 5, [u(1), u(2), u(3)/degree, found%displacement_error(i)]))
             end associate
           end do
@@ -111,7 +112,8 @@ contains
           do i = 1, size(mechanism%gauges)
             associate (values => found%strain(:, i, k), name => mechanism%gauges(i)%name)
               call add_row(rows, cells(layout, 1, [shown_rate(variant%model, &
-                found, speed, k), found%time(k), found%crank(k)])//name_cell(name, column_width(layout, 4))// &
+                found, speed, k), found%time(k), found%crank(k)])//name_cell(name, &
+                column_width(layout, 4))// &
                 cells(layout, 5, [values([axial_strain, bending_strain, moment, axial_force, &
                 stress]), found%strain_error(i)]))
             end associate

@@ -216,8 +216,8 @@ contains
     order = max(6, min(4 + 2*ceiling(-0.25_wp*log10(accuracy)), 12))
   end function first_order
 
-  !> Steps between instants to begin with, so that the second solution has its radians of the slowest
-  !! vibration; at least two: half as many more are not twice as many.
+  !> Steps between instants to begin with, so that the second solution has its radians of the
+  !! slowest vibration; at least two: half as many more are not twice as many.
   function first_steps(structure, request, law, crank, model) result(steps)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
@@ -388,8 +388,9 @@ contains
       found%strain_error]))
   end subroutine evaluate
 
-  !> What solutions of higher orders would change yet, from the changes by the last two orders: errors
-  !! fall as a power of the order, `C n^(-p)`, whose differences these are. Not less than the last.
+  !> What solutions of higher orders would change yet, from the changes by the last two orders:
+  !! errors fall as a power of the order, `C n^(-p)`, whose differences these are. Not less than
+  !! the last.
   elemental function what_remains(last, before, order) result(rest)
     real(wp), intent(in) :: last, before
     integer, intent(in) :: order !! of the last

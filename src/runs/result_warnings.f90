@@ -5,8 +5,8 @@ module result_warnings
   use harmonics_study, only: harmonics_result_t, has_settled
   use kinds, only: wp
   use mechanisms, only: link_lengths, mechanism_t
-  use models, only: accuracy_of_study, drives_length, has_law, model_t, needs_frequencies, needs_study, &
-    speed_in_words
+  use models, only: accuracy_of_study, drives_length, has_law, model_t, needs_frequencies, &
+    needs_study, speed_in_words
   use position_results, only: error_of_divergence, error_of_orders, error_of_position
   use positions, only: positions_t
   use response_parts, only: body_damping_t, damping_none, dampings_of

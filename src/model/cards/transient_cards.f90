@@ -1,7 +1,7 @@
 !> `REPORT transient`: elastic motions in time.
 module transient_cards
-  use card_reader, only: entry_number, has_key, read_choice, read_entry_count, read_entry_quantity, &
-    read_quantity, require_positive
+  use card_reader, only: entry_number, has_key, read_choice, read_entry_count, &
+    read_entry_quantity, read_quantity, require_positive
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_input, error_t, set_error

@@ -7,8 +7,8 @@ module response_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use errors, only: error_of_writing
   use kinds, only: wp
-  use models, only: has_gauge_histories, has_law, inertia_lumped, model_t, needs_response, report_in_motion, &
-    report_number, report_with
+  use models, only: has_gauge_histories, has_law, inertia_lumped, model_t, needs_response, &
+    report_in_motion, report_number, report_with
   use name_checks, only: link_ends
   use name_index, only: name_index_t, new_name_index
   use text, only: same_word, to_string
@@ -201,8 +201,8 @@ contains
       if (has_law(model)) then
         call check_instants(asked, diagnostics, model)
       else if (asked%lacks_turns) then
-        call add_error(diagnostics, model%reports(number)%keyword, "'turns=' is missing; expected "// &
-          dimension_name(dimension_none), kind=error_of_writing)
+        call add_error(diagnostics, model%reports(number)%keyword, "'turns=' is missing; "// &
+          "expected "//dimension_name(dimension_none), kind=error_of_writing)
       end if
       if (asked%steady .and. model%ramp > 0.0_wp) call add_error(diagnostics, asked%start_word, &
         "the steady state is that of a speed, and the crank starts at rest; expected start=rest", &
@@ -225,10 +225,10 @@ contains
 
     call refuse_key(asked%turns_word, "turns", "it ends at the last instant of TIME", model, &
       diagnostics)
-    call refuse_key(asked%crank_word, "crank", "it starts where the law is at the first instant "// &
-      "of TIME", model, diagnostics)
-    call refuse_key(asked%instants_word, "instants", "its rows are at the instants of TIME", model, &
-      diagnostics)
+    call refuse_key(asked%crank_word, "crank", "it starts where the law is at the first "// &
+      "instant of TIME", model, diagnostics)
+    call refuse_key(asked%instants_word, "instants", "its rows are at the instants of TIME", &
+      model, diagnostics)
     if (asked%steady) call add_error(diagnostics, asked%start_word, &
       "the steady state is that of a speed; expected start=rest", model%drives(1)%law, &
       "the crank moves by this law")
