@@ -145,7 +145,8 @@ contains
       call move_alloc(series, before)
       reached = [found%order, found%steps]
       found%order = found%order + orders_above
-      found%steps = (3*found%steps + 1)/2
+      ! The first two solutions, of low orders, tell how fast these converge.
+      if (round > 1) found%steps = (3*found%steps + 1)/2
     end do
     if (maxval([0.0_wp, found%displacement_error]) > accuracy) then
       call set_missed(maxval(found%displacement_error), "displacements", found%error)
@@ -216,8 +217,7 @@ contains
     order = max(6, min(4 + 2*ceiling(-0.25_wp*log10(accuracy)), 12))
   end function first_order
 
-  !> Steps between instants to begin with, so that the second solution has its radians of the
-  !! slowest vibration; at least two: half as many more are not twice as many.
+  !> Steps between instants to begin with, at least two: half as many more are not twice as many.
   function first_steps(structure, request, law, crank, model) result(steps)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
@@ -233,8 +233,7 @@ contains
     steps = 2
     call grid_at(structure, model, crank, grid, reached)
     if (.not. reached) return
-    wanted = ceiling(interval_of(request, law)/(1.5_wp*first_radians* &
-      sqrt(maxval(own_squares(grid)))))
+    wanted = ceiling(interval_of(request, law)/(first_radians*sqrt(maxval(own_squares(grid)))))
     steps = max(steps, min(wanted, 1000))
   end function first_steps
 
