@@ -196,6 +196,8 @@ def main():
                         if difference > sum(errors):
                             raise ValueError(f"{what}: {table} differ by {difference:.2e}, errors {errors[0]:.1e} and {errors[1]:.1e}")
             passed += 1
+        except KeyboardInterrupt:
+            break  # what is done counts
         except (ValueError, OSError) as problem:
             failed += 1
             print(f"not ok {label}: {problem}")
