@@ -8,6 +8,7 @@ import argparse
 import math
 import os
 import random
+import signal
 import subprocess
 import sys
 
@@ -165,6 +166,7 @@ def main():
     parser.add_argument("--program", default="build/release/flexmech")
     parser.add_argument("--scratch", default="/tmp/estimates_transient")
     options = parser.parse_args()
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     os.makedirs(options.scratch, exist_ok=True)
     passed = failed = 0
     shares, compared, refused = [], 0, 0
