@@ -36,7 +36,7 @@ module transient_responses
 
   !> Estimated errors are what differences of solutions leave, or the last of these, times this.
   !! None is stated below the rounding of the whole, and below so much of the highest harmonics of
-  !! the path.
+  !! the path, or what a steady state lacks from which it starts.
   real(wp), parameter :: safety = 2.0_wp, rounding = 1.0e-12_wp, of_tail = 100.0_wp
 
   !> Slowest and fastest powers of the order by which errors are taken to fall.
@@ -265,18 +265,19 @@ contains
     type(turn_grid_t) :: grid
     type(transient_motion_t) :: motion
     real(wp), allocatable :: start(:), damping(:)
+    real(wp) :: lack
 
     call new_path_grid(structure, model, 1, grid, found%error)
     if (allocated(found%error)) return
     damping = damping_of(request%response%damping, grid)
-    call find_start(structure, request, law, found%order, grid, store, start, found%error)
+    call find_start(structure, request, law, found%order, grid, store, start, found%error, lack)
     if (allocated(found%error)) return
     call solve_motion(structure, model, law, damping, request%response%terms%axial, &
       found%time, request%instants, found%steps, start, motion, found%error)
     found%made = found%made + motion%made
     found%taken = found%taken + motion%taken
     if (allocated(found%error) .or. was_interrupted()) return
-    found%least_error = rounding + of_tail*grid%tail
+    found%least_error = rounding + of_tail*grid%tail + safety*lack
     call find_series(structure, request, found%crank, model, motion, series, found%deflection, &
       found%error)
   end subroutine solve_once

@@ -47,7 +47,7 @@ contains
   !!
   !! Errors: the crank cannot reach its first angle; there is no steady state, or it is not accurate
   !! enough; the mode does not exist.
-  subroutine find_start(structure, request, law, order, grid, store, start, error)
+  subroutine find_start(structure, request, law, order, grid, store, start, error, lack)
     class(structure_t), intent(in) :: structure       !! linkage and beams
     type(transient_request_t), intent(in) :: request
     type(crank_law_t), intent(in) :: law              !! of the crank
@@ -56,8 +56,10 @@ contains
     type(link_store_t), intent(inout) :: store        !! links decomposed earlier
     real(wp), allocatable, intent(out) :: start(:)    !! (2 unknowns)
     type(error_t), allocatable, intent(out) :: error
+    real(wp), intent(out), optional :: lack           !! what the steady state lacks, as a share
 
     type(motion_matrices_t) :: matrices
+    real(wp) :: lacks
     real(wp), dimension(grid%unknowns) :: y, rates, shape
     real(wp) :: motion(0:2)
 
@@ -67,8 +69,9 @@ contains
     call find_motion_matrices(grid, matrices)
     y = 0.0_wp
     rates = 0.0_wp
+    lacks = 0.0_wp
     if (request%start == from_steady) then
-      call find_steady(structure, request, law, order, store, y, rates, error)
+      call find_steady(structure, request, law, order, store, y, rates, lacks, error)
       if (allocated(error)) return
     end if
     if (request%mode > 0) then
@@ -79,6 +82,7 @@ contains
         matrices, shape)
     end if
     start = [y, momenta_of(matrices, 1, motion(1), y, rates)]
+    if (present(lack)) lack = lacks
   end subroutine find_start
 
   !> Crank angle, speed and acceleration at the first instant, of a law those that follow it.
@@ -127,13 +131,14 @@ contains
 
   !> y and ẏ of the steady state at the first crank angle, with as many samples of the turn as its
   !! harmonics need.
-  subroutine find_steady(structure, request, law, order, store, y, rates, error)
+  subroutine find_steady(structure, request, law, order, store, y, rates, lack, error)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
     type(crank_law_t), intent(in) :: law
     integer, intent(in) :: order
     type(link_store_t), intent(inout) :: store
     real(wp), intent(out) :: y(:), rates(:)
+    real(wp), intent(out) :: lack !! what it lacks, as a share of it
     type(error_t), allocatable, intent(out) :: error
 
     type(level_slot_t), allocatable :: levels(:)
@@ -146,6 +151,7 @@ contains
     speed = abs(law%speed)
     theta = sign(1.0_wp, law%speed)*law%start*degree
     last = huge(1.0_wp)
+    lack = last
     do at = 3, size(sample_numbers), 2
       n = sample_numbers(at)
       allocate (levels(0))
@@ -171,6 +177,7 @@ contains
         end if
         call close_fourier(plan)
       end associate
+      lack = max(last, remainder)
       deallocate (levels, periodic, coefficients)
       if (.not. allocated(error) .and. last <= tail .and. remainder <= &
         share*request%response%accuracy) return

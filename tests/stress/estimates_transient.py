@@ -85,7 +85,7 @@ class Linkage:
             lines += [f"LINK crank O2 A length={number(self.crank)} material=steel section=s0",
                       f"LINK rod A B C lengths={number(self.long / 2)},{number(self.long / 3)} turns={number(sense * self.turn[1])} "
                       "material=steel section=s1",
-                      f"DRIVE rod ratio={number(self.follow)} phase={number(angle(self.turn[0]) - self.follow * rotate)}",
+                      f"DRIVE rod against crank ratio={number(self.follow)} phase={number(sense * self.turn[0] - self.follow * rotate)}",
                       f"PINMASS C {number(self.mass)}", "GAUGE g rod at=30"]
         if self.ratio:
             lines.append(f"DAMPING * ratio={number(self.ratio)}")
@@ -112,7 +112,7 @@ def run(options, name, text):
     with open(path, "w", encoding="ascii") as file:
         file.write(text)
     done = subprocess.run([options.program, "--quiet", "--threads", "1", "--out", options.scratch, path], capture_output=True, text=True,
-                          check=False)
+                          check=False, timeout=options.seconds)
     if done.returncode not in (0, 1):
         raise ValueError(f"exit status {done.returncode}: {done.stderr.strip().splitlines()[:1]}")
     tables = {}
@@ -165,6 +165,7 @@ def main():
     parser.add_argument("count", type=int)
     parser.add_argument("--program", default="build/release/flexmech")
     parser.add_argument("--scratch", default="/tmp/estimates_transient")
+    parser.add_argument("--seconds", type=float, default=120.0, help="a run may take; longer ones are left out")
     options = parser.parse_args()
     signal.signal(signal.SIGINT, signal.default_int_handler)
     os.makedirs(options.scratch, exist_ok=True)
@@ -181,7 +182,7 @@ def main():
                 accuracy = case.acc * fine
                 other = {"transient": {}, "gauges": {}}
                 while not (other["transient"] or other["gauges"]) and accuracy < 10 * case.acc:
-                    other = run(options, "other", case.deck(max(accuracy, 1e-9), angle, mirror))
+                    other = run(options, "other", case.deck(max(accuracy, 1e-7), angle, mirror))
                     accuracy *= 100
                 for table in ("transient", "gauges"):
                     if not base[table] or not other[table]:
@@ -200,6 +201,8 @@ def main():
             passed += 1
         except KeyboardInterrupt:
             break  # what is done counts
+        except subprocess.TimeoutExpired:
+            refused += 1
         except (ValueError, OSError) as problem:
             failed += 1
             print(f"not ok {label}: {problem}")
