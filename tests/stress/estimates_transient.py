@@ -16,7 +16,7 @@ GAUGE_SCALE = 1e-3
 
 
 def number(x):
-    return f"{x:.10g}"
+    return f"{x:.16g}"
 
 
 class Linkage:
