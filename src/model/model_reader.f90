@@ -25,8 +25,8 @@ module model_reader
   use load_cards, only: force_card_t, read_force, read_gravity, read_torque, torque_card_t
   use materials, only: read_material
   use mesh_checks, only: check_meshes
-  use models, only: drives_length, has_law, is_four_bar, is_loaded, is_moving, is_sprung, &
-    model_t, needs_mesh, report_number
+  use models, only: drives_length, has_gauge_histories, has_law, is_four_bar, is_loaded, &
+    is_moving, is_sprung, model_t, needs_mesh, report_number
   use motor_cards, only: read_motor
   use motor_checks, only: find_motor_line
   use process_cards, only: is_process_form, process_card_t, read_process_force, &
@@ -165,6 +165,8 @@ contains
             if (.not. report%with_pins) report%kind%tables(2) = table_kind_t()
             if (.not. report%with_forces) report%kind%tables(3) = table_kind_t()
           end if
+          if (report%kind%name == "transient" .and. .not. has_gauge_histories(model)) &
+            report%kind%tables(2) = table_kind_t()
           if (report%kind%name == "summary") call take_needs(reports, model, four_bar, is_sound, &
             diagnostics, report)
           ! Harmonics are of a whole turn at constant speed.

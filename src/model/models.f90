@@ -14,6 +14,8 @@ module models
   use linkage_cards, only: ground_t, mesh_t, pin_mass_t
   use load_cards, only: force_card_t, torque_card_t
   use materials, only: material_t
+  use motion_programs, only: motion_program_t
+  use motion_programs, only: motion_program_t
   use motor_cards, only: motor_t
   use process_cards, only: over_nothing, process_card_t
   use output_units, only: output_units_t
@@ -32,7 +34,8 @@ module models
 
   public :: model_t, report_number, report_with, needs_study, needs_positions, is_moving, &
     is_loaded, is_sprung, is_damped, needs_loads, needs_inertia, needs_frequencies, &
-    needs_response, report_in_motion, steady_state_report, accuracy_of_study, needs_beams, &
+    needs_response, has_gauge_histories, report_in_motion, steady_state_report, &
+    accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
     link_line_density, speed_in_table, speed_in_words, is_four_bar, is_pin, pivots, &
     drives_length, balances, has_law
@@ -98,6 +101,8 @@ module models
                                                 !! `crank`; else empty
     real(wp), allocatable :: law_rates(:, :)    !! (2, instants) speed and acceleration [as `speed`,
                                                 !! `acceleration`]; not allocated without a law
+    type(motion_program_t) :: program           !! the law, its positions in degrees, of a slider
+                                                !! or a ram in m
     real(wp) :: ramp = 0.0_wp                   !! time in which REPORT transient gets to the speed
                                                 !! from rest; 0: it has it [s]
     type(token_t) :: ramp_word
@@ -149,6 +154,15 @@ contains
     end do
     number = 0
   end function report_with
+
+  !> Whether REPORT transient, if there is one, is to have strains: GAUGE cards or REPORT strains
+  !! ask for them.
+  pure function has_gauge_histories(model) result(has)
+    type(model_t), intent(in) :: model !! as read
+    logical :: has
+
+    has = size(model%gauges) > 0 .or. report_with(model, "strains") > 0
+  end function has_gauge_histories
 
   !> Whether the linkage has the parts of a four-bar and no others: three links between two pins
   !! each, two ground pivots, one driven link. GROUND pins that only hold springs do not count.

@@ -301,8 +301,9 @@ module report_table
       table_kind_t("critical", "speed:rate speed_error:- line,mode:# frequency:Hz "// &
       "excitation:length amplitude?:length growth,error:-"), no_table]), &
     report_kind_t(name="transient", help="the elastic motion in time from a state", &
-      pattern="REPORT transient turns= [crank=0] [start=rest|steady] [perturb=mode,amplitude] "// &
-      "[instants=] [accuracy=]", default="crank=0 start=rest instants=72 accuracy=1e-3", &
+      pattern="REPORT transient turns= [crank=0] [start=rest|steady] "// &
+      "[perturb=mode,amplitude[,velocity]] [instants=] [accuracy=]", &
+      default="crank=0 start=rest instants=72 accuracy=1e-3", &
       studies="transient", response=.true., tables=[ &
       table_kind_t("transient", "speed:speed time:time crank:deg point:name ux,uy:length "// &
       "rotation:deg error:-"), &
@@ -927,8 +928,9 @@ contains
     if (drives_length(model)) call use_lengths(model, fitted)
     ! Tables of positions, not those of speeds.
     if (has_law(model) .and. index(fitted%columns, "speed:") == 1 .and. &
-      max(index(fitted%columns, " crank:"), index(fitted%columns, " crank,")) > 0) &
-      fitted%columns = "time:time "//trim(fitted%columns)
+      index(fitted%columns, " time:") == 0 .and. max(index(fitted%columns, " crank:"), &
+      index(fitted%columns, " crank,")) > 0) fitted%columns = &
+      "time:time "//trim(fitted%columns)
   end function table_in_units
 
   !> Makes the columns of a table those of a slider or a ram.

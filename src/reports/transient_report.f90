@@ -2,14 +2,16 @@
 module transient_report
   use constants, only: degree
   use kinds, only: wp
-  use models, only: report_number
+  use models, only: has_law, model_t, report_number
   use response_notes, only: damping_note, without_note
   use response_types, only: axial_force, axial_strain, bending_strain, moment, stress
   use strains_report, only: append_gauge_notes
-  use table_columns, only: cells, column_width, table_layout_t
+  use table_columns, only: cells, column_width, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: name_cell
   use text, only: append_string, string_t, to_string
+  use transient_types, only: speed_transient_t
+  use units, only: from_si
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -58,10 +60,13 @@ contains
           if (asked%mode > 0) words = words//", with the shape of mode "//to_string(asked%mode)// &
             " of the mechanism frozen there, its largest displacement along a link "// &
             to_string(asked%amplitude, 9)//" m"
+          if (abs(asked%velocity) > 0.0_wp) words = words//", its largest velocity "// &
+            to_string(asked%velocity, 9)//" m/s"
           call append_string(notes, words)
           words = "crank: at constant speed"
           if (model%ramp > 0.0_wp) words = "crank: from rest with constant acceleration for "// &
             to_string(model%ramp)//" s, then at constant speed"
+          if (has_law(model)) words = "crank: by the law '"//model%drives(1)%law%text//"'"
           call append_string(notes, words//"; its angle continues past whole turns")
           call append_string(notes, damping_note(variant))
           if (model%without%keyword%line > 0) call append_string(notes, without_note(variant))
@@ -84,11 +89,12 @@ contains
 
     associate (found => variant%found%transient%at_speed(speed), mechanism => variant%mechanism)
       if (allocated(found%error)) then
-        call add_failed_row(rows, [variant%model%shown_speed(speed)], found%error%text)
+        call add_failed_row(rows, failed_place(variant%model, found, speed), found%error%text)
         return
       end if
       if (table /= "transient" .and. allocated(found%strain_fault)) then
-        call add_failed_row(rows, [variant%model%shown_speed(speed)], found%strain_fault%text)
+        call add_failed_row(rows, failed_place(variant%model, found, speed), &
+          found%strain_fault%text)
         return
       end if
       do k = 1, size(found%time)
@@ -96,16 +102,18 @@ contains
           do i = 1, size(mechanism%response_points)
             associate (u => found%displacement(:, i, k), &
                 name => mechanism%response_points(i)%name)
-              call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
-                found%time(k), found%crank(k)])//name_cell(name, column_width(layout, 4))// &
+              call add_row(rows, cells(layout, 1, [shown_rate(variant%model, &
+                found, speed, k), found%time(k), found%crank(k)])//name_cell(name, &
+                column_width(layout, 4))// &
                 cells(layout, 5, [u(1), u(2), u(3)/degree, found%displacement_error(i)]))
             end associate
           end do
         else
           do i = 1, size(mechanism%gauges)
             associate (values => found%strain(:, i, k), name => mechanism%gauges(i)%name)
-              call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
-                found%time(k), found%crank(k)])//name_cell(name, column_width(layout, 4))// &
+              call add_row(rows, cells(layout, 1, [shown_rate(variant%model, &
+                found, speed, k), found%time(k), found%crank(k)])//name_cell(name, &
+                column_width(layout, 4))// &
                 cells(layout, 5, [values([axial_strain, bending_strain, moment, axial_force, &
                 stress]), found%strain_error(i)]))
             end associate
@@ -114,6 +122,30 @@ contains
       end do
     end associate
   end subroutine add_transient
+
+  !> The speed of the deck, of a law that at an instant, as tables show it.
+  pure function shown_rate(model, found, speed, k) result(shown)
+    type(model_t), intent(in) :: model
+    type(speed_transient_t), intent(in) :: found
+    integer, intent(in) :: speed !! number
+    integer, intent(in) :: k     !! number of the instant
+    real(wp) :: shown
+
+    shown = model%shown_speed(speed)
+    if (has_law(model)) shown = from_si(found%rate(k), model%speed_unit)
+  end function shown_rate
+
+  !> Where a motion is that failed: its speed; of a law its beginning.
+  pure function failed_place(model, found, speed) result(place)
+    type(model_t), intent(in) :: model
+    type(speed_transient_t), intent(in) :: found
+    integer, intent(in) :: speed !! number
+    real(wp), allocatable :: place(:)
+
+    place = [shown_rate(model, found, speed, 1)]
+    if (has_law(model)) place = [place, from_si(found%time(1), table_factor("time", &
+      model%outputs)), found%crank(1)]
+  end function failed_place
 
   !> Log lines: orders, steps and work of every speed.
   pure function transient_log(variant) result(text)

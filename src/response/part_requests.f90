@@ -9,7 +9,7 @@ module part_requests
   implicit none (type, external)
   private
 
-  public :: request_of_parts, dampings_of_parts, join_parts
+  public :: request_of_parts, dampings_of_parts, join_parts, join_largest
 
 contains
 
@@ -130,14 +130,14 @@ contains
     call join_peaks(found%largest_strain)
     call join_peaks(found%largest_stress)
     call join_peaks(found%largest_deflection)
-    call join_largest(found%deflection)
-    call join_largest(found%peak_error)
+    call join_largest(elastic, links, found%deflection)
+    call join_largest(elastic, links, found%peak_error)
     if (allocated(found%buckling)) then
       if (size(found%buckling) > 0) found%buckling = found%buckling*(straight_lengths(elastic)/ &
         elastic%linkage%bodies%length)**2
     end if
-    call join_largest(found%buckling)
-    call join_largest(found%quadratic_change)
+    call join_largest(elastic, links, found%buckling)
+    call join_largest(elastic, links, found%quadratic_change)
     call join_sums(found%power_lost)
 
   contains
@@ -167,21 +167,6 @@ contains
       end do
       call move_alloc(of_links, of_parts)
     end subroutine join_peaks
-
-    pure subroutine join_largest(of_parts)
-      real(wp), allocatable, intent(inout) :: of_parts(:)
-
-      real(wp), allocatable :: of_links(:)
-      integer :: k
-
-      if (.not. allocated(of_parts)) return
-      if (size(of_parts) == 0) return
-      allocate (of_links(links), source=-huge(1.0_wp))
-      do k = 1, size(elastic%body)
-        of_links(elastic%body(k)) = max(of_links(elastic%body(k)), of_parts(k))
-      end do
-      call move_alloc(of_links, of_parts)
-    end subroutine join_largest
 
     pure subroutine join_sums(of_parts)
       real(wp), allocatable, intent(inout) :: of_parts(:)
@@ -233,5 +218,23 @@ contains
     end function goes_on
 
   end function straight_lengths
+
+  !> The largest of the values of the parts of every link; nothing where there are none.
+  pure subroutine join_largest(elastic, links, of_parts)
+    type(elastic_linkage_t), intent(in) :: elastic        !! parts
+    integer, intent(in) :: links                          !! how many
+    real(wp), allocatable, intent(inout) :: of_parts(:)   !! becomes that of links
+
+    real(wp), allocatable :: of_links(:)
+    integer :: k
+
+    if (.not. allocated(of_parts)) return
+    if (size(of_parts) == 0) return
+    allocate (of_links(links), source=-huge(1.0_wp))
+    do k = 1, size(elastic%body)
+      of_links(elastic%body(k)) = max(of_links(elastic%body(k)), of_parts(k))
+    end do
+    call move_alloc(of_links, of_parts)
+  end subroutine join_largest
 
 end module part_requests

@@ -25,8 +25,11 @@ module path_grids
   integer, parameter :: turn_samples(*) = [64, 128, 256, 512, 1024]
   real(wp), parameter :: enough = 1.0e-13_wp, most = 1.0e-9_wp
 
-  !> Number of the first kind of terms that need not be there, `second_order`.
-  integer, parameter :: first_optional = 13
+  !> Terms of one kind.
+  type :: term_kind_t
+    integer :: number = 0       !! of them at a crank angle
+    real(wp) :: scale = 1.0_wp  !! of which a share is small
+  end type term_kind_t
 
 contains
 
@@ -119,7 +122,7 @@ contains
       allocate (coefficients, mold=terms)
       call coefficients_of(plan, terms, coefficients)
       call close_fourier(plan)
-      tail = tail_of(widths_of(grid), scales_of(grid), coefficients)
+      tail = tail_of(kinds_of(grid), coefficients)
       ! More samples do not help against rounding.
       if (tail <= enough .or. i == size(turn_samples) .or. (tail <= most .and. tail > &
         0.1_wp*last)) exit
@@ -131,6 +134,7 @@ contains
         "crank has too many harmonics: a dead point is near")
       return
     end if
+    grid%tail = tail
     call move_alloc(coefficients, grid%harmonics)
     call resize(grid, samples)
   end subroutine find_harmonics
@@ -166,8 +170,7 @@ contains
       reshape(grid%rate, [size(grid%rate)]), &
       reshape(grid%rate_slope, [size(grid%rate_slope)]), &
       reshape(grid%force, [size(grid%force)]), &
-      reshape(grid%load, [size(grid%load)]), &
-      reshape(grid%torque, [size(grid%torque)])]
+      reshape(grid%load, [size(grid%load)])]
     if (allocated(grid%second_order)) flat = [flat, reshape(grid%second_order, &
       [size(grid%second_order)])]
     if (allocated(grid%weighted)) flat = [flat, reshape(grid%weighted, [size(grid%weighted)])]
@@ -179,40 +182,70 @@ contains
     terms = reshape(flat, [grid%samples, size(flat)/grid%samples])
   end function terms_of
 
-  !> Numbers of terms of every kind, in the order of `terms_of`.
-  pure function widths_of(grid) result(widths)
+  !> Kinds of terms, in the order of `terms_of`: how many there are, and what they are small
+  !! beside. Where all of a kind may be zero but for rounding (slopes of what is constant, as of an
+  !! open chain whose links turn together; loads that act nowhere) that is another kind's size;
+  !! unit loads of different cases have different units.
+  pure function kinds_of(grid) result(kinds)
     type(turn_grid_t), intent(in) :: grid
-    integer, allocatable :: widths(:)
+    type(term_kind_t), allocatable :: kinds(:)
 
-    widths = [size(grid%chord), size(grid%turn), size(grid%pin), size(grid%chord_slope), &
-      size(grid%pin_slope), size(grid%place), size(grid%direction), size(grid%rate), &
-      size(grid%rate_slope), size(grid%force), size(grid%load), size(grid%torque)]
-    if (allocated(grid%second_order)) widths = [widths, size(grid%second_order)]
-    if (allocated(grid%weighted)) widths = [widths, size(grid%weighted)]
-    if (allocated(grid%weighted_slope)) widths = [widths, size(grid%weighted_slope)]
-    if (allocated(grid%pieces)) widths = [widths, size(grid%ratio), size(grid%stretch), &
-      size(grid%stretch_slope)]
-    widths = widths/grid%samples
-  end function widths_of
+    real(wp) :: length, pins, chords, forces
+    integer :: c
 
-  !> What kinds of terms are small beside, where the largest of its kind may be rounding: what lines
-  !! and guides add to K_G beside what axial forces do, slopes of deformations beside these.
-  pure function scales_of(grid) result(scales)
-    type(turn_grid_t), intent(in) :: grid
-    real(wp), allocatable :: scales(:)
+    length = maxval(grid%model%links%length)
+    pins = maxval(abs(grid%pin))
+    chords = max(maxval(abs(grid%chord)), pins)
+    kinds = [kind_of(size(grid%chord), chords), kind_of(size(grid%turn), &
+      max(maxval(abs(grid%turn)), pins/length)), kind_of(size(grid%pin), pins), &
+      kind_of(size(grid%chord_slope), max(chords, maxval(abs(grid%chord_slope)))), &
+      kind_of(size(grid%pin_slope), max(pins, maxval(abs(grid%pin_slope)))), &
+      kind_of(size(grid%place), maxval(abs(grid%place))), kind_of(size(grid%direction), 1.0_wp), &
+      kind_of(size(grid%rate), max(1.0_wp, maxval(abs(grid%rate)))), &
+      kind_of(size(grid%rate_slope), max(1.0_wp, maxval(abs(grid%rate_slope))))]
+    do c = 1, grid%cases
+      kinds = [kinds, kind_of(size(grid%force(:, :, :, c)), force_of(c))]
+    end do
+    do c = 1, grid%cases
+      kinds = [kinds, kind_of(size(grid%load(:, :, c)), max(maxval(abs(grid%load(:, :, c))), &
+        force_of(c)*pins))]
+    end do
+    do c = 1, merge(grid%cases, 0, allocated(grid%second_order))
+      forces = force_of(c)*maxval(abs(grid%turn))**2*length
+      kinds = [kinds, kind_of(size(grid%second_order(:, :, :, c)), &
+        max(maxval(abs(grid%second_order(:, :, :, c))), forces))]
+    end do
+    if (allocated(grid%weighted)) kinds = [kinds, kind_of(size(grid%weighted), &
+      maxval(abs(grid%weighted)))]
+    if (allocated(grid%weighted_slope)) kinds = [kinds, kind_of(size(grid%weighted_slope), &
+      max(maxval(abs(grid%weighted)), maxval(abs(grid%weighted_slope))))]
+    if (allocated(grid%pieces)) kinds = [kinds, kind_of(size(grid%ratio), 1.0_wp), &
+      kind_of(size(grid%stretch), max(1.0_wp, maxval(abs(grid%stretch)))), &
+      kind_of(size(grid%stretch_slope), max(1.0_wp, maxval(abs(grid%stretch_slope))))]
 
-    allocate (scales(size(widths_of(grid))), source=tiny(1.0_wp))
-    if (allocated(grid%second_order)) scales(first_optional) = maxval(abs(grid%force))* &
-      maxval(abs(grid%turn))**2*maxval(grid%model%links%length)
-    if (allocated(grid%weighted_slope)) scales(size(scales) - merge(3, 0, &
-      allocated(grid%pieces))) = maxval(abs(grid%weighted))
-    if (allocated(grid%pieces)) scales(size(scales) - 1:) = 1.0_wp
-  end function scales_of
+  contains
 
-  !> The highest eighth of the harmonics, beside the largest of their kind.
-  pure function tail_of(widths, scales, coefficients) result(tail)
-    integer, intent(in) :: widths(:)
-    real(wp), intent(in) :: scales(:)          !! (kinds) of which a share is small
+    !> A kind, and how large it is.
+    pure type(term_kind_t) function kind_of(number, scale)
+      integer, intent(in) :: number !! of all values of the kind
+      real(wp), intent(in) :: scale
+
+      kind_of = term_kind_t(number/grid%samples, max(scale, tiny(1.0_wp)))
+    end function kind_of
+
+    !> The largest force of a load case: along the links, or what loads do, per displacement.
+    pure real(wp) function force_of(case)
+      integer, intent(in) :: case
+
+      force_of = max(maxval(abs(grid%force(:, :, :, case))), maxval(abs(grid%load(:, :, case)))/ &
+        max(pins, tiny(1.0_wp)))
+    end function force_of
+
+  end function kinds_of
+
+  !> The highest eighth of the harmonics, beside the size of their kind.
+  pure function tail_of(kinds, coefficients) result(tail)
+    type(term_kind_t), intent(in) :: kinds(:)
     real(wp), intent(in) :: coefficients(:, :) !! (samples, terms)
     real(wp) :: tail
 
@@ -221,12 +254,10 @@ contains
     n = size(coefficients, 1)
     tail = 0.0_wp
     at = 0
-    do i = 1, size(widths)
-      if (widths(i) == 0) cycle
-      associate (here => coefficients(:, at + 1:at + widths(i)))
-        tail = max(tail, maxval(abs(here(n - n/8:, :)))/max(maxval(abs(here)), scales(i)))
-      end associate
-      at = at + widths(i)
+    do i = 1, size(kinds)
+      if (kinds(i)%number > 0) tail = max(tail, maxval(abs(coefficients(n - n/8:, at + 1:at + &
+        kinds(i)%number)))/kinds(i)%scale)
+      at = at + kinds(i)%number
     end do
   end function tail_of
 
@@ -247,7 +278,6 @@ contains
     grid%rate_slope = grid%rate_slope(spread(1, 1, samples), :)
     grid%force = grid%force(spread(1, 1, samples), :, :, :)
     grid%load = grid%load(spread(1, 1, samples), :, :)
-    grid%torque = grid%torque(spread(1, 1, samples), :)
     if (allocated(grid%second_order)) grid%second_order = grid%second_order(spread(1, 1, &
       samples), :, :, :)
     if (allocated(grid%weighted)) grid%weighted = grid%weighted(spread(1, 1, samples), :, :)
@@ -279,7 +309,6 @@ contains
     call take2(grid%rate_slope(k, :))
     call take4(grid%force(k, :, :, :))
     call take3(grid%load(k, :, :))
-    call take2(grid%torque(k, :))
     if (allocated(grid%second_order)) call take4(grid%second_order(k, :, :, :))
     if (allocated(grid%weighted)) call take3(grid%weighted(k, :, :))
     if (allocated(grid%weighted_slope)) call take3(grid%weighted_slope(k, :, :))

@@ -1,19 +1,20 @@
 !> The elastic motion in time from a state, at given instants, by steps of equal number between
-!! them.
+!! them, and between them and where the motion of the crank is not smooth.
 !!
 !! At constant speed the instants return turn after turn: what the steps between two of them do is
 !! kept as one matrix, and further turns are products of matrices and states.
 module transient_motions
-  use crank_laws, only: crank_law_t
+  use crank_laws, only: constant_from, crank_breaks, crank_law_t, crank_motion
   use deformation_model, only: deformation_model_t
   use errors, only: error_of_numerics, error_t, set_error
   use gauss_collocation, only: collocation_t, new_radau_collocation
   use interruption, only: was_interrupted
   use kinds, only: long, wp
-  use motion_matrices, only: motion_matrices_t
-  use path_grids, only: new_path_grid
+  use motion_matrices, only: find_motion_matrices, motion_matrices_t
+  use path_grids, only: new_path_grid, place_grid
   use structures, only: structure_t
-  use transient_steps, only: advance, elastic_state_t, make_steps, take_steps, transient_step_t
+  use transient_steps, only: advance, elastic_state_t, kick, make_steps, take_steps, &
+    transient_step_t
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
@@ -26,6 +27,9 @@ module transient_motions
 
   !> A motion that grows beyond this has no digits any more.
   real(wp), parameter :: near_overflow = 1.0e100_wp
+
+  !> Speeds of the crank that differ less, and intervals of rows, are the same.
+  real(wp), parameter :: rounding = 1.0e-9_wp
 
   type :: transient_motion_t
     real(wp), allocatable :: state(:, :) !! (2 unknowns, instants) y, P [√J, √J s]
@@ -46,7 +50,8 @@ contains
     type(crank_law_t), intent(in) :: law           !! of the crank
     real(wp), intent(in) :: damping(:)             !! of `damping_of` [s]
     logical, intent(in) :: axial                   !! with the stiffness of axial forces
-    real(wp), intent(in) :: time(:)                !! (instants) even, from 0 [s]
+    real(wp), intent(in) :: time(:)                !! (instants) [s]; of a constant speed even,
+                                                   !! but the last
     integer, intent(in) :: instants                !! of a turn at constant speed
     integer, intent(in) :: substeps                !! between instants
     real(wp), intent(in) :: start(:)               !! (2 unknowns) y, P at the first instant
@@ -54,12 +59,14 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(collocation_t) :: rule
-    type(turn_grid_t) :: grid
-    type(motion_matrices_t) :: matrices
+    type(turn_grid_t) :: grid, here
+    type(motion_matrices_t) :: matrices, matrices_here
     type(transient_step_t), allocatable :: steps(:)
     type(transient_step_t) :: kept(instants)
     type(elastic_state_t) :: state
-    integer :: first, k, slot
+    real(wp), allocatable :: places(:)
+    real(wp) :: speed !! before the next piece of the motion of the crank [rad/s]
+    integer :: first, i, k, slot
 
     rule = new_radau_collocation(stages)
     call new_path_grid(structure, model, stages*substeps, grid, error)
@@ -68,33 +75,31 @@ contains
     state%value = start
     state%carry = 0.0_wp*start
     motion%state(:, 1) = start
-    first = findloc(time >= law%ramp, .true., dim=1)
+    first = findloc(time >= constant_from(law), .true., dim=1)
     if (first == 0) first = size(time)
+    speed = huge(speed)
     do k = 1, size(time) - 1
       if (was_interrupted()) exit
-      if (k >= first) then
-        slot = 1 + modulo(k - first, instants)
-        ! What does not return is not worth its matrix.
-        if (.not. allocated(kept(slot)%push) .and. k + instants < size(time)) then
-          call make_steps(structure, law, damping, axial, rule, time(k), (time(k + 1) - &
-            time(k))/substeps, grid, matrices, steps, error)
-          if (allocated(error)) return
-          motion%made = motion%made + substeps
-          call join(steps, kept(slot))
-        end if
-        if (allocated(kept(slot)%push)) then
-          call advance(kept(slot), state)
-          motion%taken = motion%taken + 1
-        else
-          call go(time(k), time(k + 1))
-        end if
-      else if (time(k + 1) <= law%ramp) then
-        call go(time(k), time(k + 1))
-      else
-        call go(time(k), law%ramp)
-        if (.not. allocated(error)) call go(law%ramp, time(k + 1))
+      slot = 1 + modulo(k - first, instants)
+      ! What does not return is not worth its matrix.
+      if (k >= first .and. is_whole(k) .and. .not. allocated(kept(slot)%push) .and. &
+        k + instants < size(time)) then
+        call make_steps(structure, law, damping, axial, rule, time(k), (time(k + 1) - &
+          time(k))/substeps, grid, matrices, steps, error)
+        if (allocated(error)) return
+        motion%made = motion%made + substeps
+        call join(steps, kept(slot))
       end if
-      if (allocated(error)) return
+      if (k >= first .and. is_whole(k) .and. allocated(kept(slot)%push)) then
+        call advance(kept(slot), state)
+        motion%taken = motion%taken + 1
+      else
+        places = [time(k), crank_breaks(law, time(k), time(k + 1)), time(k + 1)]
+        do i = 1, size(places) - 1
+          call go(places(i), places(i + 1))
+          if (allocated(error)) return
+        end do
+      end if
       motion%state(:, k + 1) = state%value
       if (maxval(abs(state%value)) <= near_overflow) cycle
       call set_error(error, error_of_numerics, "the motion grows without limit")
@@ -103,15 +108,44 @@ contains
 
   contains
 
-    !> Steps from one time to another.
+    !> Whether an interval is as long as the others.
+    pure logical function is_whole(k)
+      integer, intent(in) :: k !! its number
+
+      is_whole = abs(time(k + 1) - time(k) - (time(2) - time(1))) <= rounding*(time(2) - time(1))
+    end function is_whole
+
+    !> Steps from one time to another, after a jump of the speed if there is one.
     subroutine go(from, to)
       real(wp), intent(in) :: from, to !! [s]
 
+      real(wp) :: now(0:2)
+
+      if (allocated(law%program)) then
+        now = crank_motion(law, from, 0.5_wp*(from + to))
+        if (k > 1 .or. i > 1) call jump(now(0), now(1) - speed)
+        if (allocated(error)) return
+        now = crank_motion(law, to, 0.5_wp*(from + to))
+        speed = now(1)
+      end if
       call take_steps(structure, law, damping, axial, rule, from, (to - from)/substeps, grid, &
         matrices, state, error)
       motion%made = motion%made + substeps
       motion%taken = motion%taken + substeps
     end subroutine go
+
+    !> What a jump of the crank's speed does.
+    subroutine jump(crank, change)
+      real(wp), intent(in) :: crank  !! angle [deg]
+      real(wp), intent(in) :: change !! [rad/s]
+
+      if (abs(change) <= rounding*abs(speed) .or. abs(change) <= tiny(change)) return
+      if (.not. allocated(here%first)) call new_path_grid(structure, model, 1, here, error)
+      if (.not. allocated(error)) call place_grid(structure, [crank], here, error)
+      if (allocated(error)) return
+      call find_motion_matrices(here, matrices_here)
+      call kick(matrices_here, 1, change, axial, state)
+    end subroutine jump
 
   end subroutine solve_motion
 

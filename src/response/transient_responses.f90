@@ -1,13 +1,14 @@
 !> The elastic motion in time from a state at prescribed motion of the crank, with estimated errors.
 !!
 !! Every speed is solved with orders and steps that rise from one solution to the next, orders by
-!! two, steps by half: the difference of the last two bounds the error of the last. Vibrations too
-!! fast for the steps, or beyond the orders, differ from one solution to the next: what they are of
-!! the motion is in the difference.
+!! two, steps by half. Vibrations too fast for the steps, or beyond the orders, differ from one
+!! solution to the next. A sudden start excites all of them, and strains then converge as slowly as
+!! a power of the order: not the last difference bounds the error, but the sum of those that would
+!! follow, which three solutions tell.
 module transient_responses
   use beam_mesh, only: beam_t
   use constants, only: two_pi
-  use crank_laws, only: crank_angle_at, crank_law_t, time_of_turns
+  use crank_laws, only: constant_from, crank_law_t, crank_motion, time_of_turns
   use deformation_model, only: deformation_model_t
   use errors, only: error_of_numerics, error_t, set_error
   use gauge_values, only: gauge_values_of
@@ -15,11 +16,12 @@ module transient_responses
   use kinds, only: long, wp
   use link_store, only: link_store_t
   use linkages, only: linkage_t
-  use part_requests, only: request_of_parts
+  use part_requests, only: join_largest, request_of_parts
   use path_grids, only: new_path_grid, place_grid
   use response_levels, only: damping_of, new_order_model
+  use response_peaks, only: sampled_deflections
   use response_series, only: gauge_series, point_series, strains_along
-  use response_types, only: strain_values
+  use response_types, only: strain_values, stress
   use slow_motions, only: own_squares
   use structures, only: structure_t, vibrating_beams, vibrating_linkage
   use text, only: to_string
@@ -32,15 +34,20 @@ module transient_responses
 
   public :: find_transients
 
-  !> Estimated errors are differences of two solutions times this: enough where the error of the
-  !! last is up to two thirds of that before. None is stated below the rounding of the whole.
-  real(wp), parameter :: safety = 2.0_wp, rounding = 1.0e-12_wp
+  !> Estimated errors are what differences of solutions leave, or the last of these, times this.
+  !! None is stated below the rounding of the whole, and below so much of the highest harmonics of
+  !! the path, or what a steady state lacks from which it starts.
+  real(wp), parameter :: safety = 2.0_wp, rounding = 1.0e-12_wp, of_tail = 100.0_wp
+
+  !> Slowest and fastest powers of the order by which errors are taken to fall.
+  real(wp), parameter :: slowest = 0.5_wp, fastest = 50.0_wp
 
   !> First steps: radians of the slowest vibration in one, at most.
   real(wp), parameter :: first_radians = 0.6_wp
 
-  !> Orders are raised by this each time, steps by half, so many times at most.
-  integer, parameter :: orders_above = 2, most_rounds = 8, most_order = 34
+  !> Orders are raised by this each time, steps by half, so many times at most; errors are estimated
+  !! from so many solutions on.
+  integer, parameter :: orders_above = 2, most_rounds = 9, most_order = 34, least_rounds = 3
 
   !> No solution is begun that takes more than this: steps × (unknowns × stages)³, about a minute.
   real(wp), parameter :: most_work = 1.0e11_wp
@@ -73,6 +80,7 @@ contains
     type(transient_t), intent(out) :: transient        !! with a result or an error at every speed
 
     type(transient_request_t) :: of_bodies
+    type(crank_law_t) :: law
     integer :: k
 
     of_bodies = request
@@ -81,8 +89,11 @@ contains
     allocate (transient%at_speed(size(request%response%speed)))
     do k = 1, size(transient%at_speed)
       if (was_interrupted()) exit
-      call find_transient(structure, of_bodies, crank_law_t(request%crank, &
-        request%response%speed(k), request%ramp), store, transient%at_speed(k))
+      law = crank_law_t(request%crank, request%response%speed(k), request%ramp)
+      if (allocated(request%program)) law%program = request%program
+      call find_transient(structure, of_bodies, law, store, transient%at_speed(k))
+      if (allocated(structure%elastic)) call join_largest(structure%elastic, &
+        size(structure%linkage%bodies), transient%at_speed(k)%deflection)
     end do
   end subroutine find_transients
 
@@ -95,7 +106,7 @@ contains
     type(speed_transient_t), intent(inout) :: found
 
     type(deformation_model_t) :: model
-    real(wp), allocatable :: before(:, :), series(:, :)
+    real(wp), allocatable :: older(:, :), before(:, :), series(:, :)
     real(wp) :: work, accuracy, last_error
     integer :: round, idle, reached(2)
 
@@ -109,30 +120,33 @@ contains
     do round = 1, most_rounds
       call new_order_model(structure, found%order, store, model, found%error)
       if (allocated(found%error)) return
-      if (round == 1) found%steps = first_steps(structure, request, law, model)
+      if (round == 1) found%steps = first_steps(structure, request, law, &
+        found%crank(1), model)
       work = found%steps*real(size(found%time), wp)*(real(stages, wp)*model%layout%unknowns)**3
-      if (.not. law%ramp > found%time(size(found%time))) work = min(work, (found%steps* &
+      if (.not. constant_from(law) > found%time(size(found%time))) work = min(work, (found%steps* &
         (request%instants + real(count(found%time < law%ramp), wp)))*(real(stages, wp)* &
         model%layout%unknowns)**3)
-      if (work > most_work .and. round > 2) then
+      if (work > most_work .and. round > least_rounds) then
         found%order = reached(1)
         found%steps = reached(2)
         exit
       end if
       call solve_once(structure, request, law, model, store, found, series)
       if (allocated(found%error) .or. was_interrupted()) return
-      if (round > 1) then
-        call evaluate(structure, request, before, series, found)
+      if (round >= least_rounds) then
+        call evaluate(structure, request, older, before, series, found)
         if (found%largest_error <= accuracy) return
         idle = merge(0, idle + 1, found%largest_error <= least_gain*last_error)
         last_error = found%largest_error
         if (idle >= most_idle) exit
       end if
       if (round == most_rounds .or. found%order + orders_above > most_order) exit
+      if (allocated(before)) call move_alloc(before, older)
       call move_alloc(series, before)
       reached = [found%order, found%steps]
       found%order = found%order + orders_above
-      found%steps = (3*found%steps + 1)/2
+      ! The first two solutions, of low orders, tell how fast these converge.
+      if (round > 1) found%steps = (3*found%steps + 1)/2
     end do
     if (maxval([0.0_wp, found%displacement_error]) > accuracy) then
       call set_missed(maxval(found%displacement_error), "displacements", found%error)
@@ -157,47 +171,69 @@ contains
 
   end subroutine find_transient
 
-  !> Times and crank angles of the rows.
+  !> Times of the rows, up to the end itself, with crank angles and speeds.
   pure subroutine find_instants(request, law, found)
     type(transient_request_t), intent(in) :: request
     type(crank_law_t), intent(in) :: law
     type(speed_transient_t), intent(inout) :: found
 
-    real(wp) :: interval
+    real(wp) :: interval, motion(0:2), last
     integer :: k
 
-    interval = two_pi/(abs(law%speed)*request%instants)
-    found%time = [(k*interval, k=0, int(time_of_turns(law, request%turns)/interval + slack))]
-    found%crank = crank_angle_at(law, found%time)
+    if (allocated(law%program)) then
+      found%time = request%time
+    else
+      interval = interval_of(request, law)
+      last = time_of_turns(law, request%turns)
+      found%time = [(k*interval, k=0, int(last/interval + slack))]
+      if (last - found%time(size(found%time)) > slack*interval) found%time = [found%time, last]
+    end if
+    allocate (found%crank, found%rate, mold=found%time)
+    do k = 1, size(found%time)
+      motion = crank_motion(law, found%time(k), found%time(k))
+      found%crank(k) = motion(0)
+      found%rate(k) = motion(1)
+    end do
   end subroutine find_instants
+
+  !> The time between rows, of a law the longest.
+  pure function interval_of(request, law) result(interval)
+    type(transient_request_t), intent(in) :: request
+    type(crank_law_t), intent(in) :: law
+    real(wp) :: interval !! [s]
+
+    if (allocated(law%program)) then
+      interval = maxval(request%time(2:) - request%time(:size(request%time) - 1))
+    else
+      interval = two_pi/(abs(law%speed)*request%instants)
+    end if
+  end function interval_of
 
   !> Polynomial degree to begin with.
   pure function first_order(accuracy) result(order)
     real(wp), intent(in) :: accuracy
     integer :: order
 
-    order = max(6, min(6 + 2*ceiling(-0.25_wp*log10(accuracy)), 14))
+    order = max(6, min(4 + 2*ceiling(-0.25_wp*log10(accuracy)), 12))
   end function first_order
 
   !> Steps between instants to begin with, at least two: half as many more are not twice as many.
-  function first_steps(structure, request, law, model) result(steps)
+  function first_steps(structure, request, law, crank, model) result(steps)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
     type(crank_law_t), intent(in) :: law
+    real(wp), intent(in) :: crank !! first angle [deg]
     type(deformation_model_t), intent(in) :: model
     integer :: steps
 
     type(turn_grid_t) :: grid
-    type(crank_law_t) :: own
     logical :: reached
     integer :: wanted
 
-    own = law
     steps = 2
-    call grid_at(structure, model, own%start, grid, reached)
+    call grid_at(structure, model, crank, grid, reached)
     if (.not. reached) return
-    wanted = ceiling(two_pi/(abs(law%speed)*request%instants*first_radians* &
-      sqrt(maxval(own_squares(grid)))))
+    wanted = ceiling(interval_of(request, law)/(first_radians*sqrt(maxval(own_squares(grid)))))
     steps = max(steps, min(wanted, 1000))
   end function first_steps
 
@@ -229,28 +265,32 @@ contains
     type(turn_grid_t) :: grid
     type(transient_motion_t) :: motion
     real(wp), allocatable :: start(:), damping(:)
+    real(wp) :: lack
 
     call new_path_grid(structure, model, 1, grid, found%error)
     if (allocated(found%error)) return
     damping = damping_of(request%response%damping, grid)
-    call find_start(structure, request, law, found%order, grid, store, start, found%error)
+    call find_start(structure, request, law, found%order, grid, store, start, found%error, lack)
     if (allocated(found%error)) return
     call solve_motion(structure, model, law, damping, request%response%terms%axial, &
       found%time, request%instants, found%steps, start, motion, found%error)
     found%made = found%made + motion%made
     found%taken = found%taken + motion%taken
     if (allocated(found%error) .or. was_interrupted()) return
-    call find_series(structure, request, found%crank, model, motion, series, found%error)
+    found%least_error = rounding + of_tail*grid%tail + safety*lack
+    call find_series(structure, request, found%crank, model, motion, series, found%deflection, &
+      found%error)
   end subroutine solve_once
 
   !> All quantities at all instants, some instants at a time.
-  subroutine find_series(structure, request, crank, model, motion, series, error)
+  subroutine find_series(structure, request, crank, model, motion, series, deflection, error)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
     real(wp), intent(in) :: crank(:) !! (instants) [deg]
     type(deformation_model_t), intent(in) :: model
     type(transient_motion_t), intent(in) :: motion
     real(wp), allocatable, intent(out) :: series(:, :) !! (instants, quantities)
+    real(wp), allocatable, intent(out) :: deflection(:) !! (bodies) largest [m]
     type(error_t), allocatable, intent(out) :: error
 
     type(turn_grid_t) :: grid
@@ -261,7 +301,8 @@ contains
     block = min(at_a_time, size(crank))
     call new_path_grid(structure, model, block, grid, error)
     if (allocated(error)) return
-    allocate (axial(block, 1), curvature(block, 1))
+    allocate (axial(block, 1), curvature(block, 1), deflection(size(grid%integrals)), &
+      source=0.0_wp)
     associate (points => request%response%points, gauges => request%response%gauges)
       allocate (series(size(crank), of_point*size(points) + of_gauge*size(gauges)))
       do at = 1, size(crank), block
@@ -271,6 +312,7 @@ contains
         call place_grid(structure, crank(rows), grid, error)
         if (allocated(error)) return
         y = transpose(motion%state(:grid%unknowns, rows))
+        deflection = max(deflection, sampled_deflections(grid, y))
         do i = 1, size(points)
           first = of_point*(i - 1) + 1
           moved = point_series(grid, points(i)%body, points(i)%place, y)
@@ -291,22 +333,23 @@ contains
     end associate
   end subroutine find_series
 
-  !> Values and errors from the last two solutions.
-  subroutine evaluate(structure, request, before, series, found)
+  !> Values and errors from the last three solutions.
+  subroutine evaluate(structure, request, older, before, series, found)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
-    real(wp), intent(in) :: before(:, :), series(:, :) !! (instants, quantities)
+    real(wp), intent(in) :: older(:, :), before(:, :), series(:, :) !! (instants, quantities)
     type(speed_transient_t), intent(inout) :: found
 
     type(linkage_t) :: linkage
     type(beam_t), allocatable :: beams(:)
-    real(wp) :: change(size(series, 2)), largest(size(series, 2)), length, strain
+    real(wp) :: change(size(series, 2)), largest(size(series, 2)), length, strain, tension, bend
     integer :: first, i, k, n
 
     linkage = vibrating_linkage(structure)
     beams = vibrating_beams(structure)
     n = size(series, 1)
-    change = maxval(abs(series - before), dim=1)
+    change = what_remains(maxval(abs(series - before), dim=1), maxval(abs(before - older), dim=1), &
+      found%order)
     largest = maxval(abs(series), dim=1)
     associate (points => request%response%points, gauges => request%response%gauges)
       found%displacement = reshape([((series(k, of_point*(i - 1) + 1:of_point*i), i=1, &
@@ -329,17 +372,48 @@ contains
             found%strain(:, i, k) = gauge_values_of(gauge, beams(gauge%body), section, &
               series(k, first), series(k, first + 1))
           end do
-          strain = largest(first) + section%outer*largest(first + 1)
-          found%strain_error(i) = max(change(first)/max(largest(first), by_nature*strain, &
-            tiny(1.0_wp)), section%outer*change(first + 1)/max(section%outer*largest(first + 1), &
-            by_nature*strain, tiny(1.0_wp)))
+          strain = max(by_nature*(largest(first) + section%outer*largest(first + 1)), tiny(1.0_wp))
+          tension = change(first)
+          bend = section%outer*change(first + 1)
+          ! The stress has the errors of both.
+          found%strain_error(i) = max(tension/max(largest(first), strain), &
+            bend/max(section%outer*largest(first + 1), strain), (tension + bend)/ &
+            max(maxval(abs(found%strain(stress, i, :)))/section%modulus, strain))
         end associate
       end do
     end associate
-    found%displacement_error = safety*found%displacement_error + rounding
-    found%strain_error = safety*found%strain_error + rounding
+    found%displacement_error = safety*found%displacement_error + found%least_error
+    found%strain_error = safety*found%strain_error + found%least_error
     found%largest_error = max(maxval([0.0_wp, found%displacement_error]), maxval([0.0_wp, &
       found%strain_error]))
   end subroutine evaluate
+
+  !> What solutions of higher orders would change yet, from the changes by the last two orders:
+  !! errors fall as a power of the order, `C n^(-p)`, whose differences these are. Not less than
+  !! the last.
+  elemental function what_remains(last, before, order) result(rest)
+    real(wp), intent(in) :: last, before
+    integer, intent(in) :: order !! of the last
+    real(wp) :: rest
+
+    real(wp) :: high, low, p, r(3)
+    integer :: i
+
+    rest = last
+    if (last <= tiny(last)) return
+    ! Lowest order first, as shares of the last.
+    r = real(order - [4, 2, 0], wp)/order
+    low = slowest
+    high = fastest
+    do i = 1, 40
+      p = 0.5_wp*(low + high)
+      if (last*(r(1)**(-p) - r(2)**(-p)) < before*(r(2)**(-p) - 1.0_wp)) then
+        low = p
+      else
+        high = p
+      end if
+    end do
+    rest = max(last, last/(r(2)**(-low) - 1.0_wp))
+  end function what_remains
 
 end module transient_responses

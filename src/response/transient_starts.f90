@@ -1,7 +1,7 @@
 !> States from which an elastic motion in time starts.
 module transient_starts
   use constants, only: degree
-  use crank_laws, only: crank_acceleration_at, crank_law_t, crank_speed_at
+  use crank_laws, only: crank_breaks, crank_law_t, crank_motion
   use elastic_equations, only: load_at_speed
   use errors, only: error_of_numerics, error_t, set_error
   use fourier_transform, only: close_fourier, coefficients_of, derivative_of, fourier_plan_t, &
@@ -42,11 +42,12 @@ module transient_starts
 contains
 
   !> y and P at the first instant: undeformed, with ẏ = 0, or in the steady state at the first crank
-  !! angle; with the shape of a mode added that has no velocity.
+  !! angle; with the shape of a mode added, as a deformation, as a velocity or both. The deformation
+  !! by itself has none: the rates of all strains are as small as they can be.
   !!
   !! Errors: the crank cannot reach its first angle; there is no steady state, or it is not accurate
   !! enough; the mode does not exist.
-  subroutine find_start(structure, request, law, order, grid, store, start, error)
+  subroutine find_start(structure, request, law, order, grid, store, start, error, lack)
     class(structure_t), intent(in) :: structure       !! linkage and beams
     type(transient_request_t), intent(in) :: request
     type(crank_law_t), intent(in) :: law              !! of the crank
@@ -55,38 +56,89 @@ contains
     type(link_store_t), intent(inout) :: store        !! links decomposed earlier
     real(wp), allocatable, intent(out) :: start(:)    !! (2 unknowns)
     type(error_t), allocatable, intent(out) :: error
+    real(wp), intent(out), optional :: lack           !! what the steady state lacks, as a share
 
     type(motion_matrices_t) :: matrices
+    real(wp) :: lacks
     real(wp), dimension(grid%unknowns) :: y, rates, shape
-    real(wp) :: speed
+    real(wp) :: motion(0:2)
 
-    call place_grid(structure, [law%start], grid, error)
+    motion = first_motion(request, law)
+    call place_grid(structure, motion(:0), grid, error)
     if (allocated(error)) return
     call find_motion_matrices(grid, matrices)
     y = 0.0_wp
     rates = 0.0_wp
+    lacks = 0.0_wp
     if (request%start == from_steady) then
-      call find_steady(structure, request, law, order, store, y, rates, error)
+      call find_steady(structure, request, law, order, store, y, rates, lacks, error)
       if (allocated(error)) return
     end if
     if (request%mode > 0) then
-      call find_shape(structure, request, law, grid, matrices, shape, error)
+      call find_shape(structure, request, motion, grid, matrices, shape, error)
       if (allocated(error)) return
-      y = y + shape
+      y = y + request%amplitude*shape
+      rates = rates + request%velocity*shape - request%amplitude*motion(1)*idle_rates(grid, &
+        matrices, shape)
     end if
-    speed = crank_speed_at(law, 0.0_wp)
-    start = [y, momenta_of(matrices, 1, speed, y, rates)]
+    start = [y, momenta_of(matrices, 1, motion(1), y, rates)]
+    if (present(lack)) lack = lacks
   end subroutine find_start
+
+  !> Crank angle, speed and acceleration at the first instant, of a law those that follow it.
+  pure function first_motion(request, law) result(motion)
+    type(transient_request_t), intent(in) :: request
+    type(crank_law_t), intent(in) :: law
+    real(wp) :: motion(0:2)
+
+    real(wp), allocatable :: places(:)
+
+    if (.not. allocated(law%program)) then
+      motion = crank_motion(law, 0.0_wp, 0.0_wp)
+      return
+    end if
+    associate (first => request%time(1), last => request%time(size(request%time)))
+      places = [crank_breaks(law, first, last), last]
+      motion = crank_motion(law, first, 0.5_wp*(first + places(1)))
+    end associate
+  end function first_motion
+
+  !> Rates per ω2 that unknowns would have to lose for strains `w = Q y` of parts to have the least
+  !! rates `Q ẏ + ω Q' y`: `Qᵀ Q' y`, since `QᵀQ = 1`. Where unknowns are strains there are none.
+  pure function idle_rates(grid, matrices, y) result(rates)
+    type(turn_grid_t), intent(in) :: grid
+    type(motion_matrices_t), intent(in) :: matrices !! at one crank angle
+    real(wp), intent(in) :: y(:)
+    real(wp) :: rates(size(y))
+
+    real(wp), allocatable :: w(:)
+    integer :: d
+
+    rates = 0.0_wp
+    d = size(grid%dampers)
+    if (allocated(matrices%strain)) then
+      w = matmul(matrices%strain_slope(:, :, 1), y)
+      associate (deformations => size(grid%deformed))
+        w(deformations - d + 1:deformations) = 0.0_wp
+      end associate
+      rates = matmul(w, matrices%strain(:, :, 1))
+    else if (allocated(matrices%deformed)) then
+      w = matmul(matrices%deformed_slope(:, :, 1), y(:grid%border))
+      w(size(w) - d + 1:) = 0.0_wp
+      rates(:grid%border) = matmul(w, matrices%deformed(:, :, 1))
+    end if
+  end function idle_rates
 
   !> y and ẏ of the steady state at the first crank angle, with as many samples of the turn as its
   !! harmonics need.
-  subroutine find_steady(structure, request, law, order, store, y, rates, error)
+  subroutine find_steady(structure, request, law, order, store, y, rates, lack, error)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
     type(crank_law_t), intent(in) :: law
     integer, intent(in) :: order
     type(link_store_t), intent(inout) :: store
     real(wp), intent(out) :: y(:), rates(:)
+    real(wp), intent(out) :: lack !! what it lacks, as a share of it
     type(error_t), allocatable, intent(out) :: error
 
     type(level_slot_t), allocatable :: levels(:)
@@ -99,6 +151,7 @@ contains
     speed = abs(law%speed)
     theta = sign(1.0_wp, law%speed)*law%start*degree
     last = huge(1.0_wp)
+    lack = last
     do at = 3, size(sample_numbers), 2
       n = sample_numbers(at)
       allocate (levels(0))
@@ -124,6 +177,7 @@ contains
         end if
         call close_fourier(plan)
       end associate
+      lack = max(last, remainder)
       deallocate (levels, periodic, coefficients)
       if (.not. allocated(error) .and. last <= tail .and. remainder <= &
         share*request%response%accuracy) return
@@ -134,15 +188,15 @@ contains
       "start from: it lacks "//to_string(max(last, remainder), 2))
   end subroutine find_steady
 
-  !> The shape of a mode of the linkage frozen at the first instant, with its largest displacement.
+  !> The shape of a mode of the linkage frozen at the first instant, its largest displacement 1 m.
   !! The largest displacement across a link at its middle is to the left.
-  subroutine find_shape(structure, request, law, grid, matrices, shape, error)
+  subroutine find_shape(structure, request, motion, grid, matrices, shape, error)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
-    type(crank_law_t), intent(in) :: law
+    real(wp), intent(in) :: motion(0:2)               !! of `first_motion`
     type(turn_grid_t), intent(in) :: grid             !! at the first crank angle
     type(motion_matrices_t), intent(in) :: matrices   !! there
-    real(wp), intent(out) :: shape(:)                 !! (unknowns) y
+    real(wp), intent(out) :: shape(:)                 !! (unknowns) y of 1 m
     type(error_t), allocatable, intent(out) :: error
 
     type(linkage_t) :: linkage
@@ -160,8 +214,7 @@ contains
       return
     end if
     mass = matrices%mass(:, :, 1)
-    stiffness = stiffness_at(matrices, 1, crank_speed_at(law, 0.0_wp), &
-      crank_acceleration_at(law, 0.0_wp), request%response%terms%axial)
+    stiffness = stiffness_at(matrices, 1, motion(1), motion(2), request%response%terms%axial)
     ! M φ = 1/ω² (1 + K_G) φ: the lowest modes have the largest values.
     call dsygvx(1, "V", "I", "U", n, mass, n, stiffness, n, 0.0_wp, 0.0_wp, number, number, &
       0.0_wp, found, value, vector, n, work, size(work), iwork, fail, info)
@@ -183,7 +236,7 @@ contains
         if (2*i == places .and. abs(here) > abs(across)) across = here
       end do
     end do
-    shape = shape*sign(request%amplitude/largest, across)
+    shape = shape*sign(1.0_wp/largest, across)
   end subroutine find_shape
 
 end module transient_starts

@@ -3,7 +3,7 @@
 !! In canonical form `P = M ẏ + ω G y`, `Ṗ = ω Gᵀ ẏ + (ω² W − 1 − K_G) y − C ẏ + f` the matrices
 !! need no derivatives over time, at constant speed or not.
 module transient_steps
-  use crank_laws, only: crank_acceleration_at, crank_angle_at, crank_law_t, crank_speed_at
+  use crank_laws, only: crank_law_t, crank_motion
   use errors, only: error_of_numerics, error_t, set_error
   use gauss_collocation, only: collocation_t
   use kinds, only: wp
@@ -15,7 +15,8 @@ module transient_steps
   implicit none (type, external)
   private
 
-  public :: transient_step_t, make_steps, take_steps, elastic_state_t, advance, momenta_of, rates_of
+  public :: transient_step_t, make_steps, take_steps, elastic_state_t, advance, kick, momenta_of, &
+    rates_of
 
   !> What a step does to the state (y, P): its change is `change · state + push`.
   type :: transient_step_t
@@ -55,21 +56,21 @@ contains
     real(wp), intent(out) :: speed(:), acceleration(:) !! (samples of the grid)
     type(error_t), allocatable, intent(out) :: error
 
-    real(wp) :: time(grid%samples)
-    logical :: ramped
-    integer :: k, s
+    real(wp) :: motion(0:2, grid%samples)
+    integer :: i, k, s
 
     s = size(rule%node)
     do k = 1, grid%samples/s
-      time((k - 1)*s + 1:k*s) = start + length*(k - 1 + rule%node)
+      do i = 1, s
+        motion(:, (k - 1)*s + i) = crank_motion(law, start + length*(k - 1 + rule%node(i)), &
+          start + 0.5_wp*length)
+      end do
     end do
-    call place_grid(structure, crank_angle_at(law, time), grid, error)
+    call place_grid(structure, motion(0, :), grid, error)
     if (allocated(error)) return
     call find_motion_matrices(grid, matrices)
-    speed = crank_speed_at(law, time)
-    ! The last stage may be the end of the ramp.
-    ramped = start < law%ramp
-    acceleration = merge(crank_acceleration_at(law, start), 0.0_wp, ramped)
+    speed = motion(1, :)
+    acceleration = motion(2, :)
   end subroutine place_stages
 
   !> Equal steps one after another, for any state.
@@ -78,7 +79,7 @@ contains
   subroutine make_steps(structure, law, damping, axial, rule, start, length, grid, matrices, &
     steps, error)
     class(structure_t), intent(in) :: structure !! of the grid
-    type(crank_law_t), intent(in) :: law     !! of the crank; its ramp does not end inside
+    type(crank_law_t), intent(in) :: law     !! of the crank; smooth over all steps
     real(wp), intent(in) :: damping(:)       !! of `damping_of` [s]
     logical, intent(in) :: axial             !! with the stiffness of axial forces
     type(collocation_t), intent(in) :: rule  !! of a step
@@ -405,6 +406,25 @@ contains
     state%carry = whole - (after - state%value)
     state%value = after
   end subroutine add_change
+
+  !> A jump Δω of the crank's speed: `ΔP = Δω (f_α − K_α y)`, what the terms of α2 do in no time.
+  pure subroutine kick(matrices, sample, jump, axial, state)
+    type(motion_matrices_t), intent(in) :: matrices
+    integer, intent(in) :: sample
+    real(wp), intent(in) :: jump   !! Δω2 [rad/s]
+    logical, intent(in) :: axial   !! with the stiffness of axial forces
+    type(elastic_state_t), intent(inout) :: state
+
+    real(wp) :: change(size(state%value))
+    integer :: n
+
+    n = size(state%value)/2
+    change(:n) = 0.0_wp
+    change(n + 1:) = jump*(load_at(matrices, sample, 0.0_wp, 1.0_wp) - load_at(matrices, sample, &
+      0.0_wp, 0.0_wp) - matmul(stiffness_at(matrices, sample, 0.0_wp, 1.0_wp, axial) - &
+      stiffness_at(matrices, sample, 0.0_wp, 0.0_wp, axial), state%value(:n)))
+    call add_change(change, state)
+  end subroutine kick
 
   !> `P = M ẏ + ω G y`.
   pure function momenta_of(matrices, sample, speed, y, rates) result(momenta)

@@ -2,6 +2,7 @@
 module transient_types
   use errors, only: error_t
   use kinds, only: long, wp
+  use motion_programs, only: motion_program_t
   use response_types, only: response_request_t
   implicit none (type, external)
   private
@@ -21,6 +22,9 @@ module transient_types
     integer :: start = from_rest
     integer :: mode = 0             !! whose shape is added at the start; 0: none
     real(wp) :: amplitude = 0.0_wp  !! its largest displacement [m]
+    real(wp) :: velocity = 0.0_wp   !! its largest velocity [m/s]
+    type(motion_program_t), allocatable :: program !! of the crank, in degrees, in place of speeds
+    real(wp), allocatable :: time(:) !! rising instants of its rows [s]
   end type transient_request_t
 
   !> The motion at one speed. Errors are relative to the largest value over the run.
@@ -29,14 +33,17 @@ module transient_types
     type(error_t), allocatable :: strain_fault     !! why its strains are not there
     real(wp), allocatable :: time(:)               !! (instants) [s]
     real(wp), allocatable :: crank(:)              !! (instants), past whole turns [deg]
+    real(wp), allocatable :: rate(:)               !! (instants) ω2 [rad/s]
     real(wp), allocatable :: displacement(:, :, :) !! (x, y, rotation; points; instants) [m, rad]
     real(wp), allocatable :: displacement_error(:) !! (points)
     real(wp), allocatable :: strain(:, :, :)       !! (strain_values, gauges, instants)
     real(wp), allocatable :: strain_error(:)       !! (gauges)
+    real(wp), allocatable :: deflection(:)         !! (links) largest at a few places and rows [m]
     integer :: order = 0                           !! highest polynomial degree
     integer :: steps = 0                           !! between instants
     integer(long) :: made = 0_long                 !! steps whose matrices were made
     integer(long) :: taken = 0_long                !! products of a matrix and a state
+    real(wp) :: least_error = 0.0_wp               !! that any is stated with
     real(wp) :: largest_error = 0.0_wp             !! of all quantities
   end type speed_transient_t
 

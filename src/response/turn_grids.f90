@@ -79,6 +79,7 @@ module turn_grids
     real(wp), allocatable :: weighted_slope(:, :, :) !! d/dθ2 of `weighted`; of `path_grids` only
     !> Of a linkage in parts, of `path_grids`: (samples of a turn, terms) coefficients of all terms
     real(wp), allocatable :: harmonics(:, :)
+    real(wp) :: tail = 0.0_wp !! the highest of these, beside the size of their kind
     !> What moves with the material of pieces between the end of a link and a block; not allocated:
     !! all parts keep their lengths
     type(moving_piece_t), allocatable :: pieces(:) !! (bodies)

@@ -105,10 +105,13 @@ contains
       end if
       if (allocated(found%transient%at_speed)) then
         do k = 1, size(found%transient%at_speed)
-          if (allocated(found%transient%at_speed(k)%error)) call note_failure(variant, &
-            in_transient, found%transient%at_speed(k)%error, 0.0_wp, k, 0.0_wp, findings)
-          if (allocated(found%transient%at_speed(k)%strain_fault)) call note_failure(variant, &
-            in_transient, found%transient%at_speed(k)%strain_fault, 0.0_wp, k, 0.0_wp, findings)
+          associate (motion => found%transient%at_speed(k), &
+              speed => merge(0, k, has_law(variant%model)))
+            if (allocated(motion%error)) call note_failure(variant, in_transient, motion%error, &
+              0.0_wp, speed, 0.0_wp, findings)
+            if (allocated(motion%strain_fault)) call note_failure(variant, in_transient, &
+              motion%strain_fault, 0.0_wp, speed, 0.0_wp, findings)
+          end associate
         end do
       end if
       if (allocated(found%sizing%is_open)) then

@@ -5,8 +5,8 @@ module result_warnings
   use harmonics_study, only: harmonics_result_t, has_settled
   use kinds, only: wp
   use mechanisms, only: link_lengths, mechanism_t
-  use models, only: accuracy_of_study, drives_length, model_t, needs_frequencies, needs_study, &
-    speed_in_words
+  use models, only: accuracy_of_study, drives_length, has_law, model_t, needs_frequencies, &
+    needs_study, speed_in_words
   use position_results, only: error_of_divergence, error_of_orders, error_of_position
   use positions, only: positions_t
   use response_parts, only: body_damping_t, damping_none, dampings_of
@@ -25,16 +25,17 @@ module result_warnings
 
   public :: find_warnings
   public :: warning_of_divergence, warning_of_deflection, warning_of_accuracy, &
-    warning_of_response_deflection, warning_of_response_accuracy, warning_of_instability, &
+    warning_of_response_deflection, warning_of_transient_deflection, &
+    warning_of_response_accuracy, warning_of_instability, &
     warning_of_no_damping, warning_of_gaps, warning_of_harmonics
 
   !> Kinds of warnings: an eigenvalue is negative; the loads bend a link too much; the accuracy is
   !! not reached; the last two in the elastic response; its steady state is unstable; nothing
-  !! damps it; critical speeds may be missed; harmonics have not settled.
+  !! damps it; critical speeds may be missed; harmonics have not settled; deflections in time.
   integer, parameter :: warning_of_divergence = 1, warning_of_deflection = 2, &
     warning_of_accuracy = 3, warning_of_response_deflection = 4, &
     warning_of_response_accuracy = 5, warning_of_instability = 6, warning_of_no_damping = 7, &
-    warning_of_gaps = 8, warning_of_harmonics = 9
+    warning_of_gaps = 8, warning_of_harmonics = 9, warning_of_transient_deflection = 10
 
   !> Largest static deflection without a warning, relative to the link's length: the axial
   !! frequencies assume that the loads bend the links little [-].
@@ -70,6 +71,10 @@ contains
         warning = missed_response_accuracy(model, response)
         call add_if_any(findings, model%variant, warning)
       end associate
+    end if
+    if (needs_study(variant%model, "transient")) then
+      warning = transient_deflections(variant)
+      call add_if_any(findings, variant%model%variant, warning)
     end if
     if (needs_study(variant%model, "campbell")) then
       warning = missed_critical_speeds(variant%model, variant%found%campbell)
@@ -279,19 +284,56 @@ contains
 
     warning%kind = warning_of_response_deflection
     call largest_deflection(response, link_lengths(mechanism), largest, body, speed)
-    if (largest <= most_deflection) return
+    if (largest > most_deflection) call say_deflection("in the response at speed "// &
+      speed_in_words(model, speed, model%speed%value(speed))//" link '"// &
+      mechanism%names(body)%text, largest, "response", warning)
+  end function response_deflections
+
+  !> The same of motions in time.
+  pure function transient_deflections(variant) result(warning)
+    type(variant_results_t), intent(in) :: variant
+    type(warning_t) :: warning !! without a text if there is none
+
+    character(len=:), allocatable :: words
+    real(wp) :: length(size(link_lengths(variant%mechanism))), largest
+    integer :: body, k
+
+    warning%kind = warning_of_transient_deflection
+    length = link_lengths(variant%mechanism)
+    largest = 0.0_wp
+    words = ""
+    do k = 1, size(variant%found%transient%at_speed)
+      associate (found => variant%found%transient%at_speed(k))
+        if (allocated(found%error) .or. .not. allocated(found%deflection)) cycle
+        body = maxloc(found%deflection/length, dim=1)
+        if (found%deflection(body) <= largest*length(body)) cycle
+        largest = found%deflection(body)/length(body)
+        words = "in the motion in time"
+        if (.not. has_law(variant%model)) words = words//" at speed "// &
+          speed_in_words(variant%model, k, variant%model%speed%value(k))
+        words = words//" link '"//variant%mechanism%names(body)%text
+      end associate
+    end do
+    if (largest > most_deflection) call say_deflection(words, largest, "motion", warning)
+  end function transient_deflections
+
+  !> That a deflection is too large for linear equations.
+  pure subroutine say_deflection(place, largest, what, warning)
+    character(len=*), intent(in) :: place !! the link, its name last
+    real(wp), intent(in) :: largest       !! beside its length
+    character(len=*), intent(in) :: what  !! that deflects it
+    type(warning_t), intent(inout) :: warning
+
     warning%amount = largest
-    warning%text = "in the response at speed "//speed_in_words(model, speed, &
-      model%speed%value(speed))//" link '"//mechanism%names(body)%text//"' deflects by "// &
-      to_string(100.0_wp*largest, 3)//" % of its length: "
+    warning%text = place//"' deflects by "//to_string(100.0_wp*largest, 3)//" % of its length: "
     if (largest > impossible_deflection) then
       warning%grade = grade_meaningless
-      warning%text = warning%text//"no link bends so far, and this response means nothing"
+      warning%text = warning%text//"no link bends so far, and this "//what//" means nothing"
     else
       warning%text = warning%text//"above "//to_string(100.0_wp*most_deflection)// &
         " % the linear equations become unreliable"
     end if
-  end function response_deflections
+  end subroutine say_deflection
 
   !> Near resonances only damping limits the response.
   pure function no_damping_at_all(model) result(warning)

@@ -9,8 +9,9 @@ module study_requests
   use load_cases, only: has_constant_loads
   use linkage_motion_study, only: linkage_motion_request_t
   use mechanisms, only: mechanism_t
-  use models, only: effects_static, inertia_lumped, model_t, needs_loads, needs_study, &
-    report_number, report_with, accuracy_of_study, solver_band, solver_dense
+  use models, only: effects_static, has_gauge_histories, has_law, inertia_lumped, model_t, &
+    needs_loads, needs_study, report_number, report_with, accuracy_of_study, solver_band, &
+    solver_dense
   use motion_study, only: motion_request_t
   use motor_cards, only: motor_t
   use positions, only: positions_t
@@ -203,8 +204,12 @@ contains
         request%response = response_request_of(model, mechanism)
         if (allocated(request%response%points)) deallocate (request%response%points)
         if (allocated(request%response%gauges)) deallocate (request%response%gauges)
-        call add_places(mechanism, .true., .true., request%response)
+        call add_places(mechanism, .true., has_gauge_histories(model), request%response)
         request%response%accuracy = report%accuracy
+        if (has_law(model)) then
+          request%program = model%program
+          request%time = model%time%value
+        end if
         request%ramp = model%ramp
         request%crank = asked%crank
         request%turns = asked%turns
@@ -212,6 +217,7 @@ contains
         request%start = merge(from_steady, from_rest, asked%steady)
         request%mode = asked%mode
         request%amplitude = asked%amplitude
+        request%velocity = asked%velocity
       end associate
     end associate
   end function transient_request_of

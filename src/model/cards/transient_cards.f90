@@ -1,7 +1,7 @@
 !> `REPORT transient`: elastic motions in time.
 module transient_cards
-  use card_reader, only: entry_number, read_choice, read_entry_count, read_entry_quantity, &
-    read_quantity, require_positive
+  use card_reader, only: entry_number, has_key, read_choice, read_entry_count, &
+    read_entry_quantity, read_quantity, require_positive
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_input, error_t, set_error
@@ -10,7 +10,8 @@ module transient_cards
   use report_kinds, only: default_number, report_kind_t
   use text, only: to_string
   use tokens, only: token_t
-  use units, only: dimension_angle, dimension_length, dimension_none, unit_system_t
+  use units, only: dimension_angle, dimension_length, dimension_none, &
+    dimension_velocity, unit_system_t
   use value_lists, only: find_items, read_entry_list, value_list_t
   implicit none (type, external)
   private
@@ -25,7 +26,9 @@ module transient_cards
     logical :: steady = .false.    !! it starts from the steady state; else from rest
     integer :: mode = 0            !! of the perturbation; 0: none
     real(wp) :: amplitude = 0.0_wp !! of the perturbation [m]
-    type(token_t) :: start_word
+    real(wp) :: velocity = 0.0_wp  !! of the perturbation [m/s]
+    logical :: lacks_turns = .false. !! and no misspelt key may be these
+    type(token_t) :: turns_word, crank_word, instants_word, start_word
   end type transient_card_t
 
   !> Rows beyond this are taken for a mistake, modes for more than are certified.
@@ -33,14 +36,14 @@ module transient_cards
 
 contains
 
-  !> Reads the keys of `REPORT transient turns= [crank=] [start=rest|steady]
-  !! [perturb=mode,amplitude] [instants=]`. Errors: no `turns=`; unreadable values; turns or an
+  !> Reads the keys of `REPORT transient [turns=] [crank=] [start=rest|steady]
+  !! [perturb=mode,amplitude,velocity] [instants=]`. Errors: unreadable values; turns or an
   !! amplitude that is not above 0; an unknown start; no whole mode from 1; too many rows.
   pure subroutine read_transient(card, kind, known_keys, system, diagnostics, transient)
     type(card_t), intent(in) :: card                  !! the REPORT card
     type(report_kind_t), intent(in) :: kind           !! with the defaults of its keys
-    logical, intent(in) :: known_keys                 !! no key is unknown: a missing one is an
-                                                      !! error
+    logical, intent(in) :: known_keys                 !! no key is unknown: a missing one is
+                                                      !! not given
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(transient_card_t), intent(out) :: transient  !! as read
@@ -49,9 +52,13 @@ contains
     integer :: choice, i, instants
     logical :: fine
 
-    transient%start_word = token_t("", 0, 0)
-    call read_entry_quantity(card, "turns", dimension_none, system, known_keys, diagnostics, &
+    call read_entry_quantity(card, "turns", dimension_none, system, .false., diagnostics, &
       transient%turns, fine)
+    transient%lacks_turns = known_keys .and. .not. has_key(card, "turns")
+    transient%turns_word = word_of("turns")
+    transient%crank_word = word_of("crank")
+    transient%instants_word = word_of("instants")
+    transient%start_word = word_of("start")
     if (fine) call require_positive(card, "turns", transient%turns, diagnostics)
     transient%crank = default_number(kind, "crank")
     call read_entry_list(card, "crank", dimension_angle, system, diagnostics, angle)
@@ -70,15 +77,29 @@ contains
       "for: "//to_string(transient%instants)//" in a turn; expected fewer 'turns=' or 'instants='")
     i = entry_number(card, "start")
     if (i > 0) then
-      transient%start_word = card%entries(i)%value
       call read_choice(transient%start_word, "rest steady", diagnostics, choice)
       transient%steady = choice == 2
     end if
     if (entry_number(card, "perturb") > 0) call read_perturbation(card, system, diagnostics, &
       transient)
+
+  contains
+
+    !> The word of a key; without a line if the card does not give it.
+    pure function word_of(key) result(word)
+      character(len=*), intent(in) :: key
+      type(token_t) :: word
+
+      integer :: number
+
+      word = token_t("", 0, 0)
+      number = entry_number(card, key)
+      if (number > 0) word = card%entries(number)%value
+    end function word_of
+
   end subroutine read_transient
 
-  !> Reads `perturb=mode,amplitude`.
+  !> Reads `perturb=mode,amplitude` or `perturb=mode,amplitude,velocity`.
   pure subroutine read_perturbation(card, system, diagnostics, transient)
     type(card_t), intent(in) :: card
     type(unit_system_t), intent(in) :: system
@@ -87,13 +108,13 @@ contains
 
     type(token_t), allocatable :: words(:)
     type(error_t), allocatable :: error
-    logical :: fine
+    logical :: fine, moves
 
     call find_items(card, "perturb", diagnostics, words, fine)
     if (.not. fine) return
-    if (size(words) /= 2) then
-      call add_error(diagnostics, words(min(3, size(words))), "'perturb=' takes the number of "// &
-        "a mode and a length: perturb=mode,amplitude")
+    if (size(words) < 2 .or. size(words) > 3) then
+      call add_error(diagnostics, words(min(4, size(words))), "'perturb=' takes the number of "// &
+        "a mode, a length, and perhaps a velocity: perturb=mode,amplitude,velocity")
       return
     end if
     call read_integer(words(1)%text, transient%mode, error)
@@ -103,8 +124,16 @@ contains
     end if
     if (allocated(error)) call add_error(diagnostics, words(1), error%text)
     call read_quantity(words(2), dimension_length, system, diagnostics, transient%amplitude, fine)
-    if (fine .and. transient%amplitude <= 0.0_wp) call add_error(diagnostics, words(2), &
-      "an amplitude must be greater than 0, not "//words(2)%text)
+    if (size(words) == 3) call read_quantity(words(3), dimension_velocity, system, diagnostics, &
+      transient%velocity, moves)
+    if (.not. fine) return
+    if (size(words) == 2 .and. transient%amplitude <= 0.0_wp) then
+      call add_error(diagnostics, words(2), "an amplitude must be greater than 0, not "// &
+        words(2)%text//", unless a velocity follows")
+    else if (transient%amplitude < 0.0_wp) then
+      call add_error(diagnostics, words(2), "an amplitude must not be less than 0, as "// &
+        words(2)%text//" is; the velocity behind it may be")
+    end if
   end subroutine read_perturbation
 
 end module transient_cards

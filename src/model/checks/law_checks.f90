@@ -4,13 +4,13 @@ module law_checks
   use card_table, only: pattern_of
   use cards, only: card_t
   use constants, only: degree
-  use cubic_splines, only: cubic_spline_t, ends_at_rest, ends_not_a_knot, ends_periodic, &
-    new_cubic_spline, spline_values
+  use cubic_splines, only: ends_at_rest, ends_not_a_knot, ends_periodic, new_cubic_spline
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use kinds, only: wp
   use law_cards, only: law_card_t, table_free, table_periodic, table_rest
   use models, only: drives_length, model_t
-  use motion_laws, only: law_ramp, motion_segment_t, motion_values
+  use motion_laws, only: law_ramp, motion_segment_t
+  use motion_programs, only: program_values
   use report_kinds, only: report_kind_t
   use sorting, only: ascending_order
   use spelling, only: suggestion
@@ -198,7 +198,6 @@ contains
     type(model_t), intent(inout) :: model
 
     type(motion_segment_t) :: segments(size(parts))
-    real(wp) :: motion(0:2, size(model%time%value))
     integer :: i, before
     logical :: fine
 
@@ -232,10 +231,8 @@ contains
     end do
     if (.not. fine) return
     call warn_of_jumps(parts, segments, diagnostics)
-    do i = 1, size(model%time%value)
-      motion(:, i) = motion_values(segments, model%time%value(i))
-    end do
-    call put_motion(motion, model)
+    model%program%segments = segments
+    call put_motion(model)
   end subroutine take_segments
 
   !> Warnings: the velocity of a ramp is not that of what is before it or behind it.
@@ -285,8 +282,6 @@ contains
 
     integer, parameter :: ends(3) = [ends_not_a_knot, ends_at_rest, ends_periodic]
     type(number_table_t) :: table
-    type(cubic_spline_t) :: spline
-    real(wp), allocatable :: motion(:, :)
     real(wp) :: slope, first, last
     integer :: dimensions(4, 2), i
     logical :: fine
@@ -308,40 +303,39 @@ contains
       if (part%ends == table_periodic) slope = (table%values(2, rows) - table%values(2, 1))/ &
         (last - first)
       ! The last row of a periodic table without its slope is the first one, to the last digit.
-      spline = new_cubic_spline(table%values(1, :), [table%values(2, :rows - 1) - &
-        slope*(table%values(1, :rows - 1) - first), merge(table%values(2, 1), &
-        table%values(2, rows), part%ends == table_periodic)], ends(part%ends))
-      allocate (motion(0:2, size(time%value)))
+      associate (program => model%program)
+        program%rate = slope
+        program%rests = part%ends == table_rest
+        program%spline = new_cubic_spline(table%values(1, :), [table%values(2, :rows - 1) - &
+          slope*(table%values(1, :rows - 1) - first), merge(table%values(2, 1), &
+          table%values(2, rows), part%ends == table_periodic)], ends(part%ends))
+      end associate
       do i = 1, size(time%value)
         associate (t => time%value(i))
-          if (part%ends == table_free .and. (t < first .or. t > last)) then
-            call add_error(diagnostics, time%words(time%word(i)), "the table '"// &
-              part%table_word%text//"' goes from "//to_string(first, 10)//" to "// &
-              to_string(last, 10)//" s, and this instant is "//to_string(t, 10)// &
-              " s; 'ends=rest' stands still beyond, 'ends=periodic' repeats", part%table_word, &
-              "its table is given here")
-            return
-          end if
-          motion(:, i) = spline_values(spline, t)
-          if (part%ends == table_rest .and. t <= first) motion(:, i) = [table%values(2, 1), &
-            0.0_wp, merge(motion(2, i), 0.0_wp, t >= first)]
-          if (part%ends == table_rest .and. t >= last) motion(:, i) = [table%values(2, rows), &
-            0.0_wp, 0.0_wp]
-          motion(:, i) = motion(:, i) + [slope*(t - first), slope, 0.0_wp]
+          if (part%ends /= table_free .or. (t >= first .and. t <= last)) cycle
+          call add_error(diagnostics, time%words(time%word(i)), "the table '"// &
+            part%table_word%text//"' goes from "//to_string(first, 10)//" to "// &
+            to_string(last, 10)//" s, and this instant is "//to_string(t, 10)// &
+            " s; 'ends=rest' stands still beyond, 'ends=periodic' repeats", part%table_word, &
+            "its table is given here")
+          return
         end associate
       end do
     end associate
-    call put_motion(motion, model)
+    call put_motion(model)
   end subroutine take_table
 
-  !> Puts positions, speeds and accelerations into a model; its positions have the places of their
-  !! instants.
-  pure subroutine put_motion(motion, model)
-    real(wp), intent(in) :: motion(0:, :) !! (position, rate, acceleration; instants) [deg] or [m]
-    type(model_t), intent(inout) :: model
+  !> Puts positions, speeds and accelerations of the law into a model; its positions have the places
+  !! of their instants.
+  pure subroutine put_motion(model)
+    type(model_t), intent(inout) :: model !! with the law
 
-    real(wp) :: scale
+    real(wp) :: motion(0:2, size(model%time%value)), scale
+    integer :: i
 
+    do i = 1, size(model%time%value)
+      motion(:, i) = program_values(model%program, model%time%value(i))
+    end do
     scale = degree
     if (drives_length(model)) scale = 1.0_wp
     model%crank%value = motion(0, :)
@@ -361,6 +355,7 @@ contains
 
     do i = 1, size(model%reports)
       associate (report => model%reports(i))
+        if (report%kind%name == "transient") cycle
         if (report%kind%name == "motion") then
           reason = "moves the first drive by its motor, not by a law"
         else if (report%kind%response .or. report%kind%name == "sizing") then

@@ -62,7 +62,11 @@ contains
       call missing("there is no CRANK card; expected: "//pattern_of("CRANK"))
     end if
     ! A speed of 0, the default, is no speed for a steady state.
-    if (needs_response(model) .and. .not. has_card(cards, "SPEED")) then
+    if (has_law(model)) then
+      if (report_number(model, "transient") > 0 .and. .not. needs_positions(model) .and. &
+        .not. has_card(cards, "TIME")) call add_error(diagnostics, model%drives(1)%law, &
+        "the first drive moves by a law, and there is no TIME card; expected: "//pattern_of("TIME"))
+    else if (needs_response(model) .and. .not. has_card(cards, "SPEED")) then
       call add_error(diagnostics, model%reports(findloc(model%reports%kind%response, .true., &
         dim=1))%keyword, "this report needs a turning crank, and there is no SPEED card; "// &
         "expected: "//pattern_of("SPEED"))

@@ -5,13 +5,16 @@ module response_checks
   use card_reader, only: entry_number
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t
+  use errors, only: error_of_writing
   use kinds, only: wp
-  use models, only: inertia_lumped, model_t, needs_response, report_in_motion, &
-    report_number, report_with
+  use models, only: has_gauge_histories, has_law, inertia_lumped, model_t, needs_response, &
+    report_in_motion, report_number, report_with
   use name_checks, only: link_ends
   use name_index, only: name_index_t, new_name_index
-  use text, only: same_word
+  use text, only: same_word, to_string
   use tokens, only: token_t, token_texts
+  use transient_cards, only: transient_card_t
+  use units, only: dimension_name, dimension_none
   implicit none (type, external)
   private
 
@@ -195,6 +198,12 @@ contains
     number = report_number(model, "transient")
     if (number == 0) return
     associate (asked => model%reports(number)%transient, without => model%without)
+      if (has_law(model)) then
+        call check_instants(asked, diagnostics, model)
+      else if (asked%lacks_turns) then
+        call add_error(diagnostics, model%reports(number)%keyword, "'turns=' is missing; "// &
+          "expected "//dimension_name(dimension_none), kind=error_of_writing)
+      end if
       if (asked%steady .and. model%ramp > 0.0_wp) call add_error(diagnostics, asked%start_word, &
         "the steady state is that of a speed, and the crank starts at rest; expected start=rest", &
         model%ramp_word, "by this ramp")
@@ -204,6 +213,49 @@ contains
         "asked for here")
     end associate
   end subroutine check_transient
+
+  !> Motions in time by a law, whose rows are at the instants of TIME. Errors: keys about motions at
+  !! a speed; instants that do not rise, or a single one.
+  pure subroutine check_instants(asked, diagnostics, model)
+    type(transient_card_t), intent(in) :: asked
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i
+
+    call refuse_key(asked%turns_word, "turns", "it ends at the last instant of TIME", model, &
+      diagnostics)
+    call refuse_key(asked%crank_word, "crank", "it starts where the law is at the first "// &
+      "instant of TIME", model, diagnostics)
+    call refuse_key(asked%instants_word, "instants", "its rows are at the instants of TIME", &
+      model, diagnostics)
+    if (asked%steady) call add_error(diagnostics, asked%start_word, &
+      "the steady state is that of a speed; expected start=rest", model%drives(1)%law, &
+      "the crank moves by this law")
+    associate (time => model%time)
+      if (size(time%value) == 1) call add_error(diagnostics, time%words(time%word(1)), &
+        "a motion in time goes from the first instant to the last, and there is one only")
+      do i = 2, size(time%value)
+        if (time%value(i) > time%value(i - 1)) cycle
+        call add_error(diagnostics, time%words(time%word(i)), "a motion in time goes from "// &
+          "instant to instant, and this one, "//to_string(time%value(i), 10)// &
+          " s, does not come after the one before, "//to_string(time%value(i - 1), 10)//" s")
+        return
+      end do
+    end associate
+  end subroutine check_instants
+
+  !> Errors: a key that has no meaning beside a law is given.
+  pure subroutine refuse_key(word, key, reason, model, diagnostics)
+    type(token_t), intent(in) :: word !! of the key; without a line if it is not given
+    character(len=*), intent(in) :: key, reason
+    type(model_t), intent(in) :: model
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    if (word%line > 0) call add_error(diagnostics, word, "'"//key//"=' has no meaning beside a "// &
+      "law: the motion is that of the law, and "//reason, model%drives(1)%law, &
+      "its law is given here")
+  end subroutine refuse_key
 
   !> A report on all speeds between those of the deck. Errors: a single speed; speeds of both signs.
   pure subroutine check_range(name, diagnostics, model)
@@ -234,15 +286,22 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
+    logical :: has_strains(size(model%links))
     integer :: i, report
 
-    report = max(report_with(model, "strains"), report_number(model, "peaks"), &
-      report_number(model, "transient"))
+    report = report_number(model, "peaks")
+    has_strains = .not. model%links%rigid .and. report > 0
+    if (report == 0) report = report_with(model, "strains")
+    if (report == 0 .and. has_gauge_histories(model)) report = report_number(model, "transient")
     if (report == 0) return
+    if (size(model%gauges) == 0) has_strains = .not. model%links%rigid
+    do i = 1, size(model%gauges)
+      if (model%gauges(i)%link > 0) has_strains(model%gauges(i)%link) = .true.
+    end do
     do i = 1, size(model%sections)
       associate (section => model%sections(i))
         if (section%area <= 0.0_wp .or. section%depth > 0.0_wp) cycle
-        if (.not. any(model%links%section == i .and. .not. model%links%rigid)) cycle
+        if (.not. any(model%links%section == i .and. has_strains)) cycle
         call add_error(diagnostics, section%name, "section '"//section%name%text// &
           "' has no depth, and strains of bending need it; expected 'depth='", &
           model%reports(report)%keyword, "this report has strains")

@@ -358,7 +358,11 @@ contains
       call add_member(object, "speed", json_value(failure%speed))
     case (in_transient)
       call add_member(object, "stage", json_value("transient"))
-      call add_member(object, "speed", json_value(failure%speed))
+      if (len(failure%speed_words) > 0) then
+        call add_member(object, "speed", json_value(failure%speed))
+      else
+        call add_member(object, "speed", json_null)
+      end if
     case (at_forces)
       call add_member(object, "stage", json_value("forces"))
       call add_member(object, "speed", json_value(failure%speed))

@@ -44,7 +44,8 @@ contains
     case (in_campbell)
       line = "campbell, speed "//failure%speed_words
     case (in_transient)
-      line = "transient, speed "//failure%speed_words
+      line = "transient"
+      if (len(failure%speed_words) > 0) line = line//", speed "//failure%speed_words
     case (of_variant)
       line = failure%variant//": "//failure%error%text
       return
