@@ -69,6 +69,7 @@ module response_types
     real(wp) :: xi = 0.0_wp    !! along the body
     real(wp) :: share = 0.0_wp !! the same, or of both pieces of a link with a block
     real(wp) :: crank = 0.0_wp !! [deg]
+    logical :: is_constant = .false. !! over the turn: `crank` says nothing
   end type peak_t
 
   !> The steady response at one speed. Errors are relative to the largest value over the turn.
