@@ -133,6 +133,7 @@ contains
     call join_largest(found%deflection)
     call join_largest(found%peak_error)
     call join_largest(found%buckling)
+    call join_largest(found%buckling_error)
     call join_largest(found%quadratic_change)
     call join_sums(found%power_lost)
 

@@ -22,7 +22,7 @@ module steady_responses
   use order_transfer, only: transferred
   use out_of_plane, only: find_out_of_plane_frequency
   use periodic_solver, only: solve_periodic
-  use quadratic_change, only: find_quadratic_change
+  use quadratic_change, only: change_tolerance, find_quadratic_change
   use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
     sample_numbers
   use response_peaks, only: find_peaks, sampled_deflections
@@ -116,9 +116,8 @@ module steady_responses
   !> Larger errors, above the coarsest accuracy that may be asked for, are no estimates any more.
   real(wp), parameter :: no_digits = 1.0e-2_wp
 
-  !> Multipliers nearer to 1 than this are found from the whole equation; where the distance is a
-  !! result, than that.
-  real(wp), parameter :: near = 0.05_wp, far = 0.5_wp
+  !> Multipliers nearer to 1 than this are found from the whole equation.
+  real(wp), parameter :: near = 0.05_wp
 
   !> A quantity smaller than this beside what goes with it is taken for zero by its nature.
   real(wp), parameter :: by_nature = 1.0e-3_wp
@@ -224,14 +223,16 @@ contains
 
     type(error_t), allocatable :: error
     real(wp), allocatable :: frequency
+    real(wp) :: relative_error
     integer :: k
 
     ! The grillage is one of links between two pins.
     if (allocated(structure%elastic)) return
-    call find_out_of_plane_frequency(structure, frequency, error)
+    call find_out_of_plane_frequency(structure, frequency, relative_error, error)
     if (.not. allocated(frequency)) return
     do k = 1, size(response%at_speed)
       response%at_speed(k)%out_of_plane = frequency
+      response%at_speed(k)%out_of_plane_error = relative_error
     end do
   end subroutine add_out_of_plane
 
@@ -381,10 +382,7 @@ contains
       call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
         found, errors, unsolved)
       ! The exact kinematics are those of links between two pins.
-      if (request%validity .and. .not. allocated(structure%elastic)) &
-        call find_quadratic_change(structure%linkage, level%grid, plan, level%basis(choice%slow), &
-        motion, request, speed, damping_of(request%damping, level%grid), solution%y, &
-        found%quadratic_change)
+      if (request%validity .and. .not. allocated(structure%elastic)) call find_changes
     end block attempt
     found%applications = before + solution%applications + better%applications
     choice%work = choice%work + work_of(level%grid, solution%applications + 2*looking) + &
@@ -406,6 +404,24 @@ contains
     if (.not. choice%pending) call settle(choice, found)
 
   contains
+
+    !> Quadratic terms on both levels.
+    subroutine find_changes
+      real(wp), allocatable :: other(:)
+
+      call find_quadratic_change(structure%linkage, level%grid, plan, level%basis(choice%slow), &
+        motion, request, speed, damping_of(request%damping, level%grid), solution%y, &
+        found%quadratic_change)
+      call find_quadratic_change(structure%linkage, above%grid, above_plan, &
+        above%basis(choice%slow), above_motion, request, speed, damping_of(request%damping, &
+        above%grid), better%y, other)
+      if (allocated(found%quadratic_change) .and. allocated(other)) then
+        found%quadratic_error = many*change_tolerance + safety*abs(found%quadratic_change - other)/ &
+          max(found%quadratic_change, tiny(1.0_wp))
+      else if (allocated(found%quadratic_change)) then
+        deallocate (found%quadratic_change)
+      end if
+    end subroutine find_changes
 
     !> Work on a grid: a slow motion and applications of the equation.
     pure function work_of(grid, applications) result(work)
@@ -623,15 +639,13 @@ contains
 
     applications = 0
     call find_nearest_mode(level%grid, plan, basis, motion, speed, damping_of(request%damping, &
-      level%grid), request%terms, merge(far, near, request%validity), mode, found%growth, &
-      found%error)
+      level%grid), request%terms, near, mode, found%growth, found%error)
     if (allocated(found%error)) return
     applications = mode%applications
     if (.not. abs(mode%exponent) <= huge(1.0_wp)) then
       ! Nothing is left of any vibration after a turn, and rounding leaves no exponent.
       if (found%growth <= log(epsilon(1.0_wp))) then
         found%distance = 1.0_wp
-        found%distance_error = epsilon(1.0_wp)
         found%nearest = cmplx(found%growth, 0.0_wp, wp)
       else
         call set_error(found%error, error_of_numerics, "vibrations fade too fast in a turn: "// &
@@ -641,7 +655,6 @@ contains
     end if
     found%nearest = cmplx(two_pi*real(mode%exponent), abs(aimag(mode%exponent)), wp)
     found%distance = max(abs(1.0_wp - exp(two_pi*mode%exponent)), epsilon(1.0_wp))
-    found%distance_error = two_pi*mode%change/found%distance
   end subroutine look_at_multipliers
 
   !> All quantities at the crank angles of the deck, and their errors.
@@ -701,8 +714,12 @@ contains
     call evaluate_drive
     call evaluate_peaks
     found%deflection = sampled_deflections(level%grid, solution%y)
-    if (request%validity) found%buckling = buckling_shares(linkage, level%grid, &
-      plan, speed)
+    if (request%validity) then
+      found%buckling = buckling_shares(linkage, level%grid, plan, speed)
+      found%buckling_error = least_share*coarsest_share + safety*abs(found%buckling - &
+        buckling_shares(linkage, above%grid, above_plan, speed))/max(abs(found%buckling), &
+        tiny(1.0_wp))
+    end if
     found%largest_error = max(maxval([0.0_wp, found%displacement_error]), &
       maxval([0.0_wp, found%strain_error]), found%drive_error, maxval([0.0_wp, found%peak_error]))
 
