@@ -416,8 +416,14 @@ contains
         above%basis(choice%slow), above_motion, request, speed, damping_of(request%damping, &
         above%grid), better%y, other)
       if (allocated(found%quadratic_change) .and. allocated(other)) then
-        found%quadratic_error = many*change_tolerance + safety*abs(found%quadratic_change - other)/ &
-          max(found%quadratic_change, tiny(1.0_wp))
+        found%quadratic_error = many*change_tolerance*found%quadratic_change + &
+          safety*abs(found%quadratic_change - other)
+        ! A change that is nothing but rounding is none: its error is a share of the strain.
+        where (found%quadratic_change <= found%quadratic_error)
+          found%quadratic_change = 0.0_wp
+        elsewhere
+          found%quadratic_error = found%quadratic_error/found%quadratic_change
+        end where
       else if (allocated(found%quadratic_change)) then
         deallocate (found%quadratic_change)
       end if
