@@ -27,10 +27,10 @@ REPORTS = ("response", "strains", "peaks", "drive")
 def draw(seed):
     """A machine as plain numbers [m, kg, s]."""
     rng = random.Random(seed)
-    machine = {"slider": rng.random() < 0.4, "crank": rng.uniform(0.05, 0.12), "accuracy": 10 ** rng.uniform(-7, -3),
+    machine = {"slider": rng.random() < 0.4, "crank": rng.uniform(0.05, 0.12), "accuracy": 10 ** rng.uniform(-5, -2),
                "thick": [rng.uniform(0.002, 0.01) for _ in range(3)], "wide": rng.uniform(0.01, 0.03),
                "speed": rng.uniform(4, 30), "crossed": rng.random() < 0.5, "gravity": rng.choice((0.0, 9.81)),
-               "damping": rng.choice(("", "", "time=%.4e" % 10 ** rng.uniform(-5, -3), "ratio=%.4f" % rng.uniform(0.01, 0.2))),
+               "damping": rng.choice(("", "", "", "time=%.4e" % 10 ** rng.uniform(-5, -3), "ratio=%.4f" % rng.uniform(0.01, 0.2))),
                "rigid": rng.random() < 0.3, "tip": rng.choice((0.0, rng.uniform(0.05, 0.5)))}
     if machine["slider"]:
         machine["rod"], machine["offset"] = machine["crank"] * rng.uniform(2.2, 4), machine["crank"] * rng.uniform(-0.3, 0.3)
