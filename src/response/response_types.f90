@@ -105,7 +105,7 @@ module response_types
     real(wp), allocatable :: modal_distance         !! least |1 − multiplier| of the slowest
                                                     !! vibrations; unallocated: not found
     real(wp) :: modal_distance_error = 0.0_wp       !! relative
-    real(wp) :: distance = 0.0_wp                   !! least |1 − multiplier| of all that the samples
+    real(wp) :: distance = 0.0_wp                   !! least |1 − multiplier| of all that samples
                                                     !! resolve, about; 0: resonance
     real(wp) :: growth = 0.0_wp                     !! largest ln|multiplier|
     complex(wp) :: nearest = (0.0_wp, 0.0_wp)       !! of the multiplier nearest to 1:

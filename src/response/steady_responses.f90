@@ -789,8 +789,8 @@ contains
         end associate
       end do
       first = first_of_torque(request)
-      ! The work of the loads on the deformations measures torques that vanish altogether: where they
-      ! are nothing but rounding, all of it.
+      ! The work of the loads on the deformations measures torques that vanish altogether: all of it
+      ! where they are nothing but rounding.
       work = maxval(abs(sum(load_at_speed(above%grid, speed)*better%y, dim=2)))
       if (any(largest(first:) > errors(first:)) .or. any(errors(first:) > &
         sqrt(epsilon(1.0_wp))*work)) work = by_nature*work

@@ -50,8 +50,8 @@ contains
     end do
   end subroutine find_response
 
-  !> Adds how near the speeds are to resonance: the least `|1 − ρ|` of the multipliers of the slowest
-  !! vibrations, of two real ones the greater. Those of all vibrations lie dense on the unit circle.
+  !> Adds how near the speeds are to resonance: the least `|1 − ρ|` of the multipliers of the
+  !! slowest vibrations, of two real ones the greater. Those of all lie dense on the unit circle.
   subroutine add_distances(structure, request, threads, store, response)
     class(structure_t), intent(in) :: structure
     type(response_request_t), intent(in) :: request
