@@ -26,7 +26,8 @@ contains
       "the crank angles of the deck; strain: |axial| + |bending| at the fibre farthest from "// &
       "the centroid; stress: E x strain; deflection: from where the rigid link would be")
     call append_string(notes, "..._at: distance from the first pin of the LINK card; "// &
-      "..._crank: crank angle; power: mean lost to damping in the link")
+      "..._crank: crank angle, to about the square root of error in radians, -: of a "// &
+      "constant; power: mean lost to damping in the link")
     call append_response_notes(notes, variant)
   end subroutine peaks_notes
 
@@ -43,31 +44,34 @@ contains
       do b = 1, size(mechanism%names)
         if (.not. mechanism%linkage%bodies(b)%bends) cycle
         call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed)])// &
-          name_cell(mechanism%names(b)%text, column_width(layout, 2))//cells(layout, 3, &
-          [peak_values(found%largest_strain(b)), peak_values(found%largest_stress(b)), &
-          peak_values(found%largest_deflection(b)), found%power_lost(b), found%peak_error(b)]))
+          name_cell(mechanism%names(b)%text, column_width(layout, 2))// &
+          peak_cells(3, found%largest_strain(b))//peak_cells(6, found%largest_stress(b))// &
+          peak_cells(9, found%largest_deflection(b))//cells(layout, 12, [found%power_lost(b), &
+          found%peak_error(b)]))
       end do
     end associate
 
   contains
 
-    !> Value, place on the link of the deck [m], crank angle [deg].
-    pure function peak_values(peak) result(values)
+    !> Value, place on the link of the deck, and crank angle, which a constant has not.
+    function peak_cells(column, peak) result(text)
+      integer, intent(in) :: column !! its first
       type(peak_t), intent(in) :: peak
-      real(wp) :: values(3)
+      character(len=:), allocatable :: text
 
       real(wp) :: xi
 
-      associate (mechanism => variant%mechanism)
-        if (allocated(mechanism%linkage%bodies(b)%corners)) then
-          values = [peak%value, peak%xi*way_length(mechanism%linkage%bodies(b)), peak%crank]
-          return
-        end if
-        xi = peak%xi
-        if (mechanism%is_reversed(b)) xi = 1.0_wp - xi
-        values = [peak%value, xi*mechanism%linkage%bodies(b)%length, peak%crank]
+      xi = peak%xi
+      associate (body => variant%mechanism%linkage%bodies(b))
+        if (variant%mechanism%is_reversed(b) .and. .not. allocated(body%corners)) xi = 1.0_wp - xi
+        text = cells(layout, column, [peak%value, xi*way_length(body)])
       end associate
-    end function peak_values
+      if (peak%is_constant) then
+        text = text//name_cell("-", column_width(layout, column + 2))
+      else
+        text = text//cells(layout, column + 2, [peak%crank])
+      end if
+    end function peak_cells
 
   end subroutine add_peaks
 

@@ -9,7 +9,7 @@ module validity_report
   use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_row, rows_t
   use tables, only: name_cell
-  use text, only: append_string, string_t
+  use text, only: append_string, string_t, to_string
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -29,8 +29,10 @@ contains
     call append_string(notes, "quadratic: estimated relative change of the largest strain by "// &
       "terms that the linear equations leave out; out_of_plane: estimated first frequency of "// &
       "vibrations out of the plane of motion; -: not estimated")
-    call append_string(notes, "distance: least |1 - rho| of a multiplier rho of a turn, 0 at "// &
-      "resonance; error: its estimated relative error")
+    call append_string(notes, "distance: least |1 - rho| of the multipliers rho of a turn of "// &
+      "the "//to_string(variant%model%modes)//" slowest vibrations (MODES), of two real ones "// &
+      "the greater, 0 at resonance; error: the largest estimated relative error of the values "// &
+      "of the row")
     call append_response_notes(notes, variant)
   end subroutine validity_notes
 
@@ -50,8 +52,7 @@ contains
           call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed)])// &
             name_cell(mechanism%names(b)%text, column_width(layout, 2))//cells(layout, 3, &
             [found%largest_deflection(b)%value/way_length(body), found%buckling(b)])// &
-            estimated_cells(layout, found, b, has_depth(variant, b))// &
-            cells(layout, 7, [found%distance, found%distance_error]))
+            estimated_cells(layout, found, b, has_depth(variant, b)))
         end associate
       end do
     end associate
@@ -69,22 +70,32 @@ contains
     end associate
   end function has_depth
 
-  !> The columns `quadratic` and `out_of_plane`: a dash where there is no estimate.
+  !> The columns from `quadratic` on: a dash where there is no estimate.
   function estimated_cells(layout, found, body, strains) result(text)
     type(table_layout_t), intent(in) :: layout
     type(speed_response_t), intent(in) :: found
     integer, intent(in) :: body
     logical, intent(in) :: strains !! its largest strain is known
-    character(len=2*number_width) :: text
+    character(len=4*number_width) :: text
 
-    character(len=number_width) :: quadratic, out_of_plane
+    character(len=number_width) :: cell(3)
+    real(wp) :: error
 
-    quadratic = name_cell("-", number_width)
-    out_of_plane = quadratic
-    if (strains .and. allocated(found%quadratic_change)) quadratic = cells(layout, 5, &
-      [found%quadratic_change(body)])
-    if (allocated(found%out_of_plane)) out_of_plane = cells(layout, 6, [found%out_of_plane])
-    text = quadratic//out_of_plane
+    cell = name_cell("-", number_width)
+    error = max(found%peak_error(body), found%buckling_error(body))
+    if (strains .and. allocated(found%quadratic_change)) then
+      cell(1) = cells(layout, 5, [found%quadratic_change(body)])
+      error = max(error, found%quadratic_error(body))
+    end if
+    if (allocated(found%out_of_plane)) then
+      cell(2) = cells(layout, 6, [found%out_of_plane])
+      error = max(error, found%out_of_plane_error)
+    end if
+    if (allocated(found%modal_distance)) then
+      cell(3) = cells(layout, 7, [found%modal_distance])
+      error = max(error, found%modal_distance_error)
+    end if
+    text = cell(1)//cell(2)//cell(3)//cells(layout, 8, [error])
   end function estimated_cells
 
 end module validity_report

@@ -19,7 +19,7 @@ module exact_forces
   use linkages, only: cross, linkage_t, normal_to
   use poses, only: find_pose, pose_t
   use rigid_bodies, only: central_inertia, mass_centre, rigid_body, rigid_body_t
-  use turn_grids, only: turn_grid_t
+  use turn_grids, only: sense_of, turn_grid_t
   implicit none (type, external)
   private
 
@@ -135,7 +135,7 @@ contains
       do b = 1, size(motion)
         deformed%bodies(b)%length = motion(b)%chord(k)
       end do
-      crank = (360.0_wp*(k - 1))/grid%samples + chord_angle(k, 1)/degree
+      crank = sense_of(grid)*(360.0_wp*(k - 1))/grid%samples + chord_angle(k, 1)/degree
       call find_pose(deformed, crank, pose(k), error)
       if (allocated(error)) return
       do b = 1, size(motion)

@@ -24,11 +24,21 @@ module out_of_plane
 
   public :: find_out_of_plane_frequency, grillage_frequency
 
-  !> Crank angles of a turn that are looked at.
+  !> Crank angles of a turn that are looked at, and how near to the lowest frequency among them
+  !! minima are that are followed between them.
   integer, parameter :: positions = 48
+  real(wp), parameter :: may_be_lowest = 1.05_wp
 
-  !> Polynomial degree of the deflection of a link, or of each piece between masses along it.
-  integer, parameter :: order = 9
+  !> Rounds of parabolas through points that move closer, and how.
+  integer, parameter :: rounds = 8
+  real(wp), parameter :: narrowing = 0.3_wp
+
+  !> Polynomial degree of the deflection of a link, or of each piece between masses along it, and of
+  !! the second solution, which shows what the first lacks.
+  integer, parameter :: order = 9, order_above = 12
+
+  !> No error is stated smaller: rounding of stiffnesses beside the lowest eigenvalue.
+  real(wp), parameter :: least_error = 1.0e-10_wp
 
   !> Unknowns of a pin or of a place on a link: w and two tilts.
   integer, parameter :: of_node = 3
@@ -46,49 +56,117 @@ module out_of_plane
 
 contains
 
-  !> The lowest frequency over the turn.
+  !> The lowest frequency over the turn, also between the crank angles looked at.
   !!
   !! Errors: a position cannot be reached; the eigenvalues cannot be found.
-  subroutine find_out_of_plane_frequency(structure, frequency, error)
+  subroutine find_out_of_plane_frequency(structure, frequency, relative_error, error)
     class(structure_t), intent(in) :: structure      !! with beams
     real(wp), allocatable, intent(out) :: frequency  !! [Hz]; unallocated if the stiffnesses of a
                                                      !! link out of the plane are not known
+    real(wp), intent(out) :: relative_error          !! estimated
     type(error_t), allocatable, intent(out) :: error !! why there is none
 
-    type(pose_t) :: pose
-    real(wp) :: here, lowest
+    real(wp) :: at_position(0:positions + 1), crank, last_gain, lowest, finer
     integer :: k
 
+    relative_error = 0.0_wp
     if (size(structure%beams) == 0) return
     if (any(structure%linkage%bodies%bends .and. (structure%beams%out_of_plane_stiffness <= 0.0_wp &
       .or. structure%beams%torsional_stiffness <= 0.0_wp))) return
-    lowest = huge(lowest)
     do k = 1, positions
-      call find_pose(structure%linkage, (360.0_wp*(k - 1))/positions, pose, error)
+      call frequency_at((360.0_wp*(k - 1))/positions, order, at_position(k))
       if (allocated(error)) return
-      call grillage_frequency(structure, pose, here, error)
-      if (allocated(error)) return
-      lowest = min(lowest, here)
     end do
+    at_position([0, positions + 1]) = at_position([positions, 1])
+    lowest = huge(lowest)
+    crank = 0.0_wp
+    last_gain = 0.0_wp
+    do k = 1, positions
+      if (at_position(k) > min(may_be_lowest*minval(at_position), at_position(k - 1), &
+        at_position(k + 1))) cycle
+      call descend((360.0_wp*(k - 1))/positions, at_position(k))
+      if (allocated(error)) return
+    end do
+    call frequency_at(crank, order_above, finer)
+    if (allocated(error)) return
+    relative_error = least_error + (2.0_wp*abs(lowest - finer) + last_gain)/lowest
     frequency = lowest
+
+  contains
+
+    !> The lowest frequency at a crank angle [deg].
+    subroutine frequency_at(angle, degree, found)
+      real(wp), intent(in) :: angle
+      integer, intent(in) :: degree
+      real(wp), intent(out) :: found
+
+      type(pose_t) :: pose
+
+      found = huge(found)
+      call find_pose(structure%linkage, angle, pose, error)
+      if (allocated(error)) return
+      call grillage_frequency(structure, pose, found, error, degree)
+    end subroutine frequency_at
+
+    !> From a minimum among the crank angles looked at to that between them.
+    subroutine descend(start, there)
+      real(wp), intent(in) :: start, there
+
+      real(wp) :: at, best, f(-1:1), next, step, bend
+      integer :: round
+
+      if (there < lowest) crank = start
+      lowest = min(lowest, there)
+      at = start
+      best = there
+      step = 360.0_wp/positions
+      do round = 1, rounds
+        f(0) = best
+        call frequency_at(at - step, order, f(-1))
+        if (.not. allocated(error)) call frequency_at(at + step, order, f(1))
+        if (allocated(error)) return
+        bend = f(-1) + f(1) - 2.0_wp*f(0)
+        next = at
+        if (f(-1) < f(0)) next = at - step
+        if (f(1) < min(f(-1), f(0))) next = at + step
+        if (f(0) <= min(f(-1), f(1)) .and. bend > 0.0_wp) next = at + 0.5_wp*step*(f(-1) - &
+          f(1))/bend
+        call frequency_at(next, order, f(0))
+        if (allocated(error)) return
+        if (f(0) < lowest) then
+          last_gain = lowest - f(0)
+          lowest = f(0)
+          crank = next
+        end if
+        if (f(0) < best) then
+          best = f(0)
+          at = next
+        end if
+        step = narrowing*step
+      end do
+    end subroutine descend
+
   end subroutine find_out_of_plane_frequency
 
   !> The lowest frequency at a position, from `K x = λ M x`; huge without mass.
   !!
   !! Errors: the eigenvalues cannot be found.
-  subroutine grillage_frequency(structure, pose, frequency, error)
+  subroutine grillage_frequency(structure, pose, frequency, error, degree)
     class(structure_t), intent(in) :: structure      !! bending links with known stiffnesses
     type(pose_t), intent(in) :: pose
     real(wp), intent(out) :: frequency               !! [Hz]
     type(error_t), allocatable, intent(out) :: error !! why there is none
+    integer, intent(in), optional :: degree          !! of the polynomials; absent: `order`
 
     type(numbering_t) :: numbering
     type(reference_element_t) :: reference
     real(wp), allocatable :: stiffness(:, :), mass(:, :), vectors(:, :)
     real(wp) :: inverse(1)
-    integer :: b
+    integer :: b, highest
 
-    reference = new_reference_element(order)
+    highest = order
+    if (present(degree)) highest = degree
+    reference = new_reference_element(highest)
     numbering = numbers_of(structure, reference)
     allocate (stiffness(numbering%unknowns, numbering%unknowns))
     allocate (mass, mold=stiffness)
@@ -97,7 +175,7 @@ contains
     frequency = huge(frequency)
     do b = 1, size(structure%linkage%bodies)
       if (structure%linkage%bodies(b)%bends) then
-        call add_beam(structure, pose, numbering, reference, b, stiffness, mass)
+        call add_beam(structure, pose, numbering, reference, highest, b, stiffness, mass)
       else
         call add_rigid_link(structure, pose, numbering, b, mass)
       end if
@@ -194,12 +272,12 @@ contains
 
   !> Adds a link that bends, with the masses along it. The axial unknowns of the element are twists
   !! here.
-  pure subroutine add_beam(structure, pose, numbering, reference, b, stiffness, mass)
+  pure subroutine add_beam(structure, pose, numbering, reference, degree, b, stiffness, mass)
     class(structure_t), intent(in) :: structure
     type(pose_t), intent(in) :: pose
     type(numbering_t), intent(in) :: numbering
     type(reference_element_t), intent(in) :: reference
-    integer, intent(in) :: b
+    integer, intent(in) :: degree, b
     real(wp), intent(inout) :: stiffness(:, :), mass(:, :)
 
     real(wp), allocatable :: ends(:), rows(:, :), part(:, :), density(:)
@@ -214,7 +292,7 @@ contains
       pieces = size(ends) - 1
       first = numbering%inner(b) + of_node*(pieces - 1)
       density = body%line_density
-      density([1, (i, i=order + 1, n - 2)]) = beam%polar_inertia
+      density([1, (i, i=degree + 1, n - 2)]) = beam%polar_inertia
       do e = 1, pieces
         h = body%length*(ends(e + 1) - ends(e))
         rows = 0.0_wp

@@ -137,6 +137,7 @@ contains
         elastic%linkage%bodies%length)**2
     end if
     call join_largest(elastic, links, found%buckling)
+    call join_largest(elastic, links, found%buckling_error)
     call join_largest(elastic, links, found%quadratic_change)
     call join_sums(found%power_lost)
 

@@ -12,20 +12,17 @@ module quadratic_change
   use kinds, only: wp
   use linkages, only: linkage_t
   use periodic_solver, only: solve_periodic
-  use response_series, only: strains_along
-  use response_types, only: response_request_t
+  use response_peaks, only: find_peaks
+  use response_types, only: response_request_t, speed_response_t
   use slow_motions, only: slow_basis_t, slow_motion_t
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
 
-  public :: find_quadratic_change, find_unbalanced_forces
+  public :: find_quadratic_change, find_unbalanced_forces, change_tolerance
 
-  !> Intervals between the places looked at, for each piece of a link.
-  integer, parameter :: intervals = 16
-
-  !> Remainder of the iterations: it is an estimate.
-  real(wp), parameter :: tolerance = 1.0e-3_wp
+  !> Remainder of the iterations.
+  real(wp), parameter :: change_tolerance = 1.0e-9_wp
 
 contains
 
@@ -49,6 +46,7 @@ contains
                                                     !! none is found
 
     type(error_t), allocatable :: error
+    type(speed_response_t) :: of_step, of_all
     real(wp), allocatable :: load(:, :), step(:, :)
     real(wp) :: remainder
     integer :: b, applications
@@ -58,13 +56,15 @@ contains
     if (allocated(error) .or. .not. all(abs(load) < huge(1.0_wp))) return
     step = 0.0_wp
     call solve_periodic(grid, plan, basis, motion, speed, damping, request%terms, &
-      load, tolerance, step, applications, remainder, error)
+      load, change_tolerance, step, applications, remainder, error)
     if (allocated(error)) return
     allocate (change(size(linkage%bodies)))
     change = 0.0_wp
+    call find_peaks(grid, plan, request, step, of_step)
+    call find_peaks(grid, plan, request, y, of_all)
     do b = 1, size(change)
-      if (linkage%bodies(b)%bends) change(b) = largest_strain(grid, b, request%section(b)%outer, &
-        step)/max(largest_strain(grid, b, request%section(b)%outer, y), tiny(1.0_wp))
+      if (linkage%bodies(b)%bends) change(b) = of_step%largest_strain(b)%value/ &
+        max(of_all%largest_strain(b)%value, tiny(1.0_wp))
     end do
   end subroutine find_quadratic_change
 
@@ -89,23 +89,5 @@ contains
     call apply_equation(grid, plan, speed, no_damping, elastic_terms_t(), y, linear)
     force = force - load_at_speed(grid, speed) + linear - y
   end subroutine find_unbalanced_forces
-
-  !> The largest strain of a link in the outermost fibre, over the turn and along it.
-  pure function largest_strain(grid, b, outer, y) result(largest)
-    type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: b
-    real(wp), intent(in) :: outer   !! its distance from the axis [m]
-    real(wp), intent(in) :: y(:, :)
-    real(wp) :: largest
-
-    real(wp), allocatable :: xi(:), axial(:, :), curvature(:, :)
-    integer :: i, n
-
-    n = intervals*grid%model%links(b)%bending_shapes%elements
-    xi = [(real(i, wp)/n, i=0, n)]
-    allocate (axial(grid%samples, size(xi)), curvature(grid%samples, size(xi)))
-    call strains_along(grid, b, xi, y, axial, curvature)
-    largest = maxval(abs(axial) + outer*abs(curvature))
-  end function largest_strain
 
 end module quadratic_change

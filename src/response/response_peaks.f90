@@ -6,11 +6,12 @@ module response_peaks
   use elastic_equations, only: elongation_of, functions_of, strained_functions
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, &
     resampled, value_at, values_of
+  use interruption, only: was_interrupted
   use kinds, only: wp
   use link_rows, only: displacement_rows, strain_rows, strain_rows_t, sums_of_rows
   use response_types, only: peak_t, response_request_t, speed_response_t
   use moving_pieces, only: last_end
-  use turn_grids, only: moves, turn_grid_t
+  use turn_grids, only: moves, sense_of, turn_grid_t
   implicit none (type, external)
   private
 
@@ -30,6 +31,10 @@ module response_peaks
   !> Places on either side of an end of a piece are this far from it, so that rounding does not move
   !! them to the other.
   real(wp), parameter :: aside = 8.0_wp*epsilon(1.0_wp)
+
+  !> What is less than this share of the largest value is rounding, and so may be many times what
+  !! the last change by iterations is.
+  real(wp), parameter :: of_rounding = 1.0e-12_wp, many = 10.0_wp
 
   !> Rounds of the search between samples, and how its steps shrink.
   integer, parameter :: rounds = 10
@@ -90,20 +95,25 @@ contains
     ends(2) = ends(1) + intervals
   end function piece_of
 
-  !> Finds the largest values of all links; zeros of rigid ones.
-  subroutine find_peaks(grid, plan, request, y, found)
+  !> Finds the largest values of all links; zeros of rigid ones. What changes over the turn by no
+  !! more than iterations and rounding left is a constant, which has no crank angle.
+  subroutine find_peaks(grid, plan, request, y, found, last_change)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan       !! for its samples
     type(response_request_t), intent(in) :: request !! sections
     real(wp), intent(in) :: y(:, :)                !! (samples, unknowns) [√J]
     type(speed_response_t), intent(inout) :: found !! its largest strains, stresses, deflections
+    real(wp), intent(in), optional :: last_change(:, :) !! of y by the iterations; absent: 0
 
     type(fourier_plan_t) :: dense
     real(wp), allocatable :: values(:, :), xi(:), coefficients(:, :), elongation(:, :), q(:, :), &
       stretched(:, :)
+    real(wp) :: left(size(grid%integrals)), unsure
     integer :: b, i, n
 
     n = size(grid%integrals)
+    left = 0.0_wp
+    if (present(last_change)) left = many*sampled_deflections(grid, last_change)
     allocate (found%largest_strain(n), found%largest_stress(n), found%largest_deflection(n))
     call open_fourier(denser*grid%samples, dense)
     do b = 1, n
@@ -119,9 +129,13 @@ contains
         call values_of(dense, resampled(coefficients, dense%samples), q)
         call values_of(dense, resampled(elongation, dense%samples), stretched)
         do i = 1, size(xi)
-          values(:, i) = strains_at(xi(i))
+          values(:, i) = strains_at(q, stretched(:, 1), xi(i))
         end do
-        call search(values, xi, .true., found%largest_strain(b))
+        unsure = of_rounding*maxval(values)
+        if (present(last_change)) unsure = max(unsure, many*maxval([(strains_at( &
+          strained_functions(grid, b, last_change), elongation_of(grid, b, last_change), &
+          quick_places(i)), i=1, size(quick_places))]))
+        call search(.true., found%largest_strain(b))
         if (moves(grid, b)) then
           call coefficients_of(plan, functions_of(grid, b, y), coefficients)
           call values_of(dense, resampled(coefficients, dense%samples), q)
@@ -131,7 +145,10 @@ contains
             values(:, i) = sum(matmul(q, transpose(rows(:2, :)))**2, dim=2)
           end associate
         end do
-        call search(values, xi, .false., found%largest_deflection(b))
+        associate (largest => sqrt(maxval(values)))
+          unsure = largest*max(of_rounding*largest, 2.0_wp*left(b))
+        end associate
+        call search(.false., found%largest_deflection(b))
         found%largest_deflection(b)%value = sqrt(found%largest_deflection(b)%value)
         call place_on_link(found%largest_strain(b))
         call place_on_link(found%largest_deflection(b))
@@ -153,7 +170,7 @@ contains
       peak%share = peak%xi
       if (.not. moves(grid, b)) return
       call coefficients_of(plan, grid%ratio(:, b:b), ratio)
-      here = value_at(ratio, merge(-1.0_wp, 1.0_wp, grid%backwards)*peak%crank*degree)
+      here = value_at(ratio, sense_of(grid)*peak%crank*degree)
       if (grid%pieces(b)%moving_end == last_end) then
         peak%share = peak%xi*here(1)
       else
@@ -162,7 +179,9 @@ contains
     end subroutine place_on_link
 
     !> Strain of the outermost fibre over the turn.
-    function strains_at(place) result(strain)
+    function strains_at(q, stretched, place) result(strain)
+      real(wp), intent(in) :: q(:, :)      !! (samples, functions) strained ones
+      real(wp), intent(in) :: stretched(:) !! (samples) elongation
       real(wp), intent(in) :: place
       real(wp) :: strain(size(q, 1))
 
@@ -171,39 +190,72 @@ contains
 
       rows = strain_rows(grid%model%links(b), place)
       chord = grid%integrals(b)%chord
-      strain = abs(stretched(:, 1)*rows%elongation + matmul(q(:, chord + 1:), rows%axial)) + &
+      strain = abs(stretched*rows%elongation + matmul(q(:, chord + 1:), rows%axial)) + &
         request%section(b)%outer*abs(sums_of_rows(q, chord, rows%curvature))
     end function strains_at
 
     !> The largest value: of all sampled maxima in a piece that may hide it, the largest between
     !! samples.
-    subroutine search(values, xi, of_strain, peak)
-      real(wp), intent(in) :: values(:, :) !! (samples, places)
-      real(wp), intent(in) :: xi(:)
-      logical, intent(in) :: of_strain     !! else of squared deflection
+    subroutine search(of_strain, peak)
+      logical, intent(in) :: of_strain !! else of squared deflection
       type(peak_t), intent(out) :: peak
 
       type(peak_t) :: other
       real(wp) :: least
-      integer :: ends(2), low, high, before, after, i, k
+      integer :: ends(2), low, high, before, after, first, last, highest(2), i, k
 
-      least = may_hide*maxval(values)
+      highest = maxloc(values)
+      least = may_hide*values(highest(1), highest(2))
+      call climb_from(highest(1), highest(2), of_strain, peak)
+      peak%is_constant = is_constant(highest(2))
       do i = 1, size(values, 2)
+        if (was_interrupted()) exit
         ends = piece_of(i)
         low = max(ends(1), i - 1)
         high = min(ends(2), i + 1)
-        do k = 1, size(values, 1)
+        first = 1
+        last = size(values, 1)
+        if (is_constant(i)) then
+          first = maxloc(values(:, i), dim=1)
+          last = first
+        end if
+        do k = first, last
           if (values(k, i) < least) cycle
           before = modulo(k - 2, size(values, 1)) + 1
           after = modulo(k, size(values, 1)) + 1
-          if (any(values([before, after], low:high) > values(k, i)) .or. &
-            any(values(k, low:high) > values(k, i))) cycle
-          call climb(values(k, i), [two_pi*(k - 1)/size(values, 1), xi(i)], [two_pi/size(values, &
-            1), (xi(ends(2)) - xi(ends(1)))/intervals], xi(ends), of_strain, other)
-          if (other%value > peak%value) peak = other
+          associate (around => values([before, k, after], low:high))
+            if (any(around > values(k, i))) cycle
+            ! A parabola rises by less than that above its samples: nothing but rounding is won.
+            if (2.0_wp*values(k, i) - minval(around) <= peak%value + unsure) cycle
+          end associate
+          call climb_from(k, i, of_strain, other)
+          if (other%value <= peak%value) cycle
+          other%is_constant = peak%is_constant
+          peak = other
         end do
       end do
     end subroutine search
+
+    !> Whether values at a place change over the turn by nothing but rounding.
+    pure function is_constant(place) result(yes)
+      integer, intent(in) :: place !! its number
+      logical :: yes
+
+      yes = maxval(values(:, place)) - minval(values(:, place)) <= unsure
+    end function is_constant
+
+    !> The maximum between samples near a sampled one.
+    subroutine climb_from(sample, place, of_strain, peak)
+      integer, intent(in) :: sample, place !! their numbers
+      logical, intent(in) :: of_strain
+      type(peak_t), intent(out) :: peak
+
+      integer :: ends(2)
+
+      ends = piece_of(place)
+      call climb(values(sample, place), [two_pi*(sample - 1)/size(values, 1), xi(place)], &
+        [two_pi/size(values, 1), (xi(ends(2)) - xi(ends(1)))/intervals], xi(ends), of_strain, peak)
+    end subroutine climb_from
 
     !> From a sampled maximum by parabolas over the turn, along the link and in the direction in
     !! which these have led, through points that move closer: the largest value met counts.
@@ -244,7 +296,7 @@ contains
         width = narrowing*width
       end do
       peak%xi = best(2)
-      peak%crank = modulo(merge(-best(1), best(1), grid%backwards)/degree, 360.0_wp)
+      peak%crank = modulo(sense_of(grid)*best(1)/degree, 360.0_wp)
     end subroutine climb
 
     !> The value at a crank angle and place of a piece, which is kept if it is the largest so far;

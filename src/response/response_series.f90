@@ -13,7 +13,7 @@ module response_series
   use response_levels, only: damping_of
   use response_types, only: response_request_t
   use row_products, only: products_of_rows
-  use turn_grids, only: moves, turn_grid_t
+  use turn_grids, only: moves, sense_of, turn_grid_t
   implicit none (type, external)
   private
 
@@ -86,7 +86,7 @@ contains
     call torque_series(grid, plan, request%terms, speed, y, series(:, first:first + 2))
     if (.not. allocated(grid%weighted) .and. .not. allocated(grid%pieces)) return
     associate (torque => series(:, first:first + 2))
-      torque = torque + merge(-speed, speed, grid%backwards)*damping_torque(grid, plan, &
+      torque = torque + sense_of(grid)*speed*damping_torque(grid, plan, &
         damping_of(request%damping, grid), request%terms, y)
     end associate
   end subroutine response_series_of

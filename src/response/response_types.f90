@@ -61,6 +61,7 @@ module response_types
     type(response_point_t), allocatable :: points(:)
     logical :: peaks = .false.                      !! largest values are wanted
     logical :: validity = .false.                   !! what limits the results is wanted
+    integer :: modes = 3                            !! vibrations whose multipliers limit them
   end type response_request_t
 
   !> The largest value of a quantity of a link, with its place and crank angle.
@@ -69,6 +70,7 @@ module response_types
     real(wp) :: xi = 0.0_wp    !! along the body
     real(wp) :: share = 0.0_wp !! the same, or of both pieces of a link with a block
     real(wp) :: crank = 0.0_wp !! [deg]
+    logical :: is_constant = .false. !! over the turn: `crank` says nothing
   end type peak_t
 
   !> The steady response at one speed. Errors are relative to the largest value over the turn.
@@ -92,13 +94,19 @@ module response_types
     real(wp), allocatable :: buckling(:)            !! (bodies) largest compression of the rigid
                                                     !! linkage / that at which the link buckles as
                                                     !! pinned
+    real(wp), allocatable :: buckling_error(:)      !! (bodies) relative
     real(wp), allocatable :: quadratic_change(:)    !! (bodies) of the largest strain, relative;
                                                     !! unallocated: not estimated
+    real(wp), allocatable :: quadratic_error(:)     !! (bodies) relative
     real(wp), allocatable :: out_of_plane           !! first frequency of vibrations out of the
                                                     !! plane of motion [Hz]; unallocated: not
                                                     !! estimated
-    real(wp) :: distance = 0.0_wp                   !! least |1 − multiplier|; 0: resonance
-    real(wp) :: distance_error = 0.0_wp             !! relative
+    real(wp) :: out_of_plane_error = 0.0_wp         !! relative
+    real(wp), allocatable :: modal_distance         !! least |1 − multiplier| of the slowest
+                                                    !! vibrations; unallocated: not found
+    real(wp) :: modal_distance_error = 0.0_wp       !! relative
+    real(wp) :: distance = 0.0_wp                   !! least |1 − multiplier| of all that samples
+                                                    !! resolve, about; 0: resonance
     real(wp) :: growth = 0.0_wp                     !! largest ln|multiplier|
     complex(wp) :: nearest = (0.0_wp, 0.0_wp)       !! of the multiplier nearest to 1:
                                                     !! ln|multiplier| and, as imaginary part, turns

@@ -22,7 +22,7 @@ module steady_responses
   use order_transfer, only: transferred
   use out_of_plane, only: find_out_of_plane_frequency
   use periodic_solver, only: solve_periodic
-  use quadratic_change, only: find_quadratic_change
+  use quadratic_change, only: change_tolerance, find_quadratic_change
   use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
     sample_numbers
   use response_peaks, only: find_peaks, sampled_deflections
@@ -34,7 +34,7 @@ module steady_responses
   use slow_motions, only: new_slow_motion, own_squares, slow_basis_t, slow_count, slow_motion_t
   use structures, only: structure_t, vibrating_beams, vibrating_linkage
   use text, only: to_string
-  use turn_grids, only: moves, turn_grid_t
+  use turn_grids, only: moves, sense_of, turn_grid_t
   implicit none (type, external)
   private
 
@@ -116,12 +116,14 @@ module steady_responses
   !> Larger errors, above the coarsest accuracy that may be asked for, are no estimates any more.
   real(wp), parameter :: no_digits = 1.0e-2_wp
 
-  !> Multipliers nearer to 1 than this are found from the whole equation; where the distance is a
-  !! result, than that.
-  real(wp), parameter :: near = 0.05_wp, far = 0.5_wp
+  !> Multipliers nearer to 1 than this are found from the whole equation.
+  real(wp), parameter :: near = 0.05_wp
 
   !> A quantity smaller than this beside what goes with it is taken for zero by its nature.
   real(wp), parameter :: by_nature = 1.0e-3_wp
+
+  !> Errors of which more than this share is what the iterations left are theirs.
+  real(wp), parameter :: of_iterations = 0.1_wp
 
   !> Rounding of a solution, with no resonance near.
   real(wp), parameter :: rounding = 3.0e-13_wp
@@ -221,14 +223,16 @@ contains
 
     type(error_t), allocatable :: error
     real(wp), allocatable :: frequency
+    real(wp) :: relative_error
     integer :: k
 
     ! The grillage is one of links between two pins.
     if (allocated(structure%elastic)) return
-    call find_out_of_plane_frequency(structure, frequency, error)
+    call find_out_of_plane_frequency(structure, frequency, relative_error, error)
     if (.not. allocated(frequency)) return
     do k = 1, size(response%at_speed)
       response%at_speed(k)%out_of_plane = frequency
+      response%at_speed(k)%out_of_plane_error = relative_error
     end do
   end subroutine add_out_of_plane
 
@@ -334,7 +338,7 @@ contains
     type(fourier_plan_t) :: plan, above_plan
     type(slow_motion_t) :: motion, above_motion
     type(solution_t) :: solution, better
-    real(wp), allocatable :: errors(:)
+    real(wp), allocatable :: errors(:), unsolved(:)
     integer(long) :: before
     integer :: looking
     logical :: more_slow
@@ -376,12 +380,9 @@ contains
         found, looking)
       if (allocated(found%error)) exit attempt
       call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
-        found, errors)
+        found, errors, unsolved)
       ! The exact kinematics are those of links between two pins.
-      if (request%validity .and. .not. allocated(structure%elastic)) &
-        call find_quadratic_change(structure%linkage, level%grid, plan, level%basis(choice%slow), &
-        motion, request, speed, damping_of(request%damping, level%grid), solution%y, &
-        found%quadratic_change)
+      if (request%validity .and. .not. allocated(structure%elastic)) call find_changes
     end block attempt
     found%applications = before + solution%applications + better%applications
     choice%work = choice%work + work_of(level%grid, solution%applications + 2*looking) + &
@@ -403,6 +404,30 @@ contains
     if (.not. choice%pending) call settle(choice, found)
 
   contains
+
+    !> Quadratic terms on both levels.
+    subroutine find_changes
+      real(wp), allocatable :: other(:)
+
+      call find_quadratic_change(structure%linkage, level%grid, plan, level%basis(choice%slow), &
+        motion, request, speed, damping_of(request%damping, level%grid), solution%y, &
+        found%quadratic_change)
+      call find_quadratic_change(structure%linkage, above%grid, above_plan, &
+        above%basis(choice%slow), above_motion, request, speed, damping_of(request%damping, &
+        above%grid), better%y, other)
+      if (allocated(found%quadratic_change) .and. allocated(other)) then
+        found%quadratic_error = many*change_tolerance*found%quadratic_change + &
+          safety*abs(found%quadratic_change - other)
+        ! A change that is nothing but rounding is none: its error is a share of the strain.
+        where (found%quadratic_change <= found%quadratic_error)
+          found%quadratic_change = 0.0_wp
+        elsewhere
+          found%quadratic_error = found%quadratic_error/found%quadratic_change
+        end where
+      else if (allocated(found%quadratic_change)) then
+        deallocate (found%quadratic_change)
+      end if
+    end subroutine find_changes
 
     !> Work on a grid: a slow motion and applications of the equation.
     pure function work_of(grid, applications) result(work)
@@ -451,6 +476,11 @@ contains
         if (allocated(choice%best)) deallocate (choice%best)
         call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
           trim(in_words(found%nearest))//", is too near to 0 for the accuracy asked for")
+      else if (.not. choice%tightened .and. any(errors > request%accuracy .and. unsolved > &
+        of_iterations)) then
+        ! The same once more, as a quantity that is nearly nothing beside the motion needs it.
+        choice%tightened = .true.
+        choice%pending = .true.
       else
         call raise(request%accuracy, found%largest_error, gained, errors, solution%series, &
           with_kinks(request, level%grid), choice)
@@ -615,15 +645,13 @@ contains
 
     applications = 0
     call find_nearest_mode(level%grid, plan, basis, motion, speed, damping_of(request%damping, &
-      level%grid), request%terms, merge(far, near, request%validity), mode, found%growth, &
-      found%error)
+      level%grid), request%terms, near, mode, found%growth, found%error)
     if (allocated(found%error)) return
     applications = mode%applications
     if (.not. abs(mode%exponent) <= huge(1.0_wp)) then
       ! Nothing is left of any vibration after a turn, and rounding leaves no exponent.
       if (found%growth <= log(epsilon(1.0_wp))) then
         found%distance = 1.0_wp
-        found%distance_error = epsilon(1.0_wp)
         found%nearest = cmplx(found%growth, 0.0_wp, wp)
       else
         call set_error(found%error, error_of_numerics, "vibrations fade too fast in a turn: "// &
@@ -633,12 +661,11 @@ contains
     end if
     found%nearest = cmplx(two_pi*real(mode%exponent), abs(aimag(mode%exponent)), wp)
     found%distance = max(abs(1.0_wp - exp(two_pi*mode%exponent)), epsilon(1.0_wp))
-    found%distance_error = two_pi*mode%change/found%distance
   end subroutine look_at_multipliers
 
   !> All quantities at the crank angles of the deck, and their errors.
   subroutine evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
-    found, errors)
+    found, errors, unsolved)
     class(structure_t), intent(in) :: structure
     type(response_request_t), intent(in) :: request
     real(wp), intent(in) :: speed
@@ -647,6 +674,8 @@ contains
     type(solution_t), intent(in) :: solution, better
     type(speed_response_t), intent(inout) :: found
     real(wp), allocatable, intent(out) :: errors(:) !! (series)
+    real(wp), allocatable, intent(out) :: unsolved(:) !! (series) share of it that the iterations of
+                                                    !! the first solution left
 
     real(wp), allocatable :: values(:, :), fine(:, :), before(:, :), at_position(:, :), scale(:)
     type(linkage_t) :: linkage
@@ -667,11 +696,10 @@ contains
     ! motions near resonance may lack many times the last change.
     call response_series_of(above%grid, above_plan, request, speed, better%y - &
       better%last_change, before)
+    errors = safety*maxval(abs(values - fine), dim=1) + many*maxval(abs(before - fine), dim=1)
     call find_scales
-    do i = 1, n
-      errors(i) = (safety*maxval(abs(values(:, i) - fine(:, i))) + many*maxval(abs(before(:, i) - &
-        fine(:, i))))/scale(i)
-    end do
+    errors = errors/scale
+    call find_unsolved
     ! How far the iterations came below their tolerance is chance.
     extra = max(many*better%remainder, least_share*min(request%accuracy, coarsest_share)) + &
       rounding/found%distance
@@ -692,8 +720,12 @@ contains
     call evaluate_drive
     call evaluate_peaks
     found%deflection = sampled_deflections(level%grid, solution%y)
-    if (request%validity) found%buckling = buckling_shares(linkage, level%grid, &
-      plan, speed)
+    if (request%validity) then
+      found%buckling = buckling_shares(linkage, level%grid, plan, speed)
+      found%buckling_error = least_share*coarsest_share + safety*abs(found%buckling - &
+        buckling_shares(linkage, above%grid, above_plan, speed))/max(abs(found%buckling), &
+        tiny(1.0_wp))
+    end if
     found%largest_error = max(maxval([0.0_wp, found%displacement_error]), &
       maxval([0.0_wp, found%strain_error]), found%drive_error, maxval([0.0_wp, found%peak_error]))
 
@@ -714,14 +746,26 @@ contains
       integer, intent(in) :: k
       real(wp) :: angle
 
-      angle = merge(-1.0_wp, 1.0_wp, level%grid%backwards)*modulo(request%crank(k), 360.0_wp)*degree
+      angle = sense_of(level%grid)*modulo(request%crank(k), 360.0_wp)*degree
     end function angle_of
+
+    !> What the last change of the first solution changes, where errors are too large.
+    subroutine find_unsolved
+      real(wp) :: here(level%grid%samples, n), there(level%grid%samples, n)
+
+      allocate (unsolved(n), source=0.0_wp)
+      if (all(errors <= request%accuracy)) return
+      call response_series_of(level%grid, plan, request, speed, solution%y, here)
+      call response_series_of(level%grid, plan, request, speed, solution%y - &
+        solution%last_change, there)
+      unsolved = safety*maxval(abs(here - there), dim=1)/scale/max(errors, tiny(1.0_wp))
+    end subroutine find_unsolved
 
     !> The largest value of every series over the turn, to which its errors are relative; of a
     !! displacement that of both components. A quantity that is zero by its nature is measured
     !! against what goes with it.
     subroutine find_scales
-      real(wp) :: largest(n)
+      real(wp) :: largest(n), work
 
       allocate (scale(n))
       largest = maxval(abs(fine), dim=1)
@@ -745,9 +789,13 @@ contains
         end associate
       end do
       first = first_of_torque(request)
-      ! The work of the loads on the deformations measures torques that vanish altogether.
+      ! The work of the loads on the deformations measures torques that vanish altogether: all of it
+      ! where they are nothing but rounding.
+      work = maxval(abs(sum(load_at_speed(above%grid, speed)*better%y, dim=2)))
+      if (any(largest(first:) > errors(first:)) .or. any(errors(first:) > &
+        sqrt(epsilon(1.0_wp))*work)) work = by_nature*work
       scale(first:) = max(largest(first:), by_nature*maxval(abs(sum(fine(:, first:), dim=2))), &
-        by_nature*maxval(abs(sum(load_at_speed(above%grid, speed)*better%y, dim=2))))
+        work)
       scale = max(scale, tiny(1.0_wp))
     end subroutine find_scales
 
@@ -780,8 +828,7 @@ contains
       allocate (found%drive(drive_values, size(request%crank)))
       found%drive(rigid_torque:quadratic_torque, :) = at_position(first:first + 2, :)
       found%drive(total_torque, :) = sum(found%drive(rigid_torque:quadratic_torque, :), dim=1)
-      found%drive(power, :) = found%drive(total_torque, :)*merge(-speed, speed, &
-        level%grid%backwards)
+      found%drive(power, :) = found%drive(total_torque, :)*sense_of(level%grid)*speed
       found%mean_torque = sum(solution%series(1, first:first + 2))
       total = sum(values(:, first:first + 2), dim=2)
       fine_total = sum(fine(:, first:first + 2), dim=2)
@@ -797,8 +844,8 @@ contains
         request%validity)))
       found%peak_error = 0.0_wp
       if (size(found%peak_error) == 0) return
-      call find_peaks(level%grid, plan, request, solution%y, found)
-      call find_peaks(above%grid, above_plan, request, better%y, other)
+      call find_peaks(level%grid, plan, request, solution%y, found, solution%last_change)
+      call find_peaks(above%grid, above_plan, request, better%y, other, better%last_change)
       found%power_lost = speed**2*power_of(level%grid, plan, solution%y)
       other%power_lost = speed**2*power_of(above%grid, above_plan, better%y)
       do b = 1, size(beams)

@@ -34,7 +34,7 @@ module turn_grids
   private
 
   public :: turn_grid_t, damper_t, rate_case, new_turn_grid, start_grid, number_border, take_pose, &
-    take_chord, moves
+    take_chord, moves, sense_of
 
   !> Positions of a turn at which deformations are tried as unknowns, and turns until these are
   !! taken for good.

@@ -155,6 +155,7 @@ contains
     request%accuracy = accuracy_of_study(model, "response")
     request%terms = terms_of(model)
     request%damping = link_dampings_of(model, mechanism%links)
+    request%modes = model%modes
     request%peaks = report_number(model, "peaks") > 0
     request%validity = report_number(model, "validity") > 0
     allocate (request%section(size(mechanism%links)))
