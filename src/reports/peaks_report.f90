@@ -38,40 +38,42 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
+    character(len=:), allocatable :: row
     integer :: b
 
     associate (found => variant%found%response%at_speed(speed), mechanism => variant%mechanism)
       do b = 1, size(mechanism%names)
         if (.not. mechanism%linkage%bodies(b)%bends) cycle
-        call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed)])// &
-          name_cell(mechanism%names(b)%text, column_width(layout, 2))// &
-          peak_cells(3, found%largest_strain(b))//peak_cells(6, found%largest_stress(b))// &
-          peak_cells(9, found%largest_deflection(b))//cells(layout, 12, [found%power_lost(b), &
-          found%peak_error(b)]))
+        row = cells(layout, 1, [variant%model%shown_speed(speed)])// &
+          name_cell(mechanism%names(b)%text, column_width(layout, 2))
+        call add_peak(3, found%largest_strain(b), row)
+        call add_peak(6, found%largest_stress(b), row)
+        call add_peak(9, found%largest_deflection(b), row)
+        call add_row(rows, row//cells(layout, 12, [found%power_lost(b), found%peak_error(b)]))
       end do
     end associate
 
   contains
 
-    !> Value, place on the link of the deck, and crank angle, which a constant has not.
-    function peak_cells(column, peak) result(text)
+    !> Appends value, place on the link of the deck, and crank angle, which a constant has not.
+    subroutine add_peak(column, peak, text)
       integer, intent(in) :: column !! its first
       type(peak_t), intent(in) :: peak
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(inout) :: text
 
       real(wp) :: xi
 
       xi = peak%xi
       associate (body => variant%mechanism%linkage%bodies(b))
         if (variant%mechanism%is_reversed(b) .and. .not. allocated(body%corners)) xi = 1.0_wp - xi
-        text = cells(layout, column, [peak%value, xi*way_length(body)])
+        text = text//cells(layout, column, [peak%value, xi*way_length(body)])
       end associate
       if (peak%is_constant) then
         text = text//name_cell("-", column_width(layout, column + 2))
       else
         text = text//cells(layout, column + 2, [peak%crank])
       end if
-    end function peak_cells
+    end subroutine add_peak
 
   end subroutine add_peaks
 
