@@ -31,8 +31,8 @@ class Tables:
         self._program = program
 
     def known_linkages(self):
-        """A row for every line of anchors.py; what is compared with what belongs to the document."""
-        for line in answer("--program", self._program).splitlines():
+        """A row for every line of anchors.py but the count; what is compared with what belongs to the document."""
+        for line in answer("--program", self._program).splitlines()[:-1]:
             verdict, name, *words = line.replace(":", " ", 1).split()
             if verdict != "passed":
                 raise ValueError(line)

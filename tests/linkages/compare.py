@@ -108,7 +108,7 @@ def long_tables(deck, tables):
                 "B3": (b, coupler), "B4": (b, follower), "O4": (next(pin for pin in links[follower] if pin != b), follower)}
         for row in tables["reactions"].rows:
             place = {"speed": row["speed"], "crank": row["crank"]}
-            reactions += [{**place, "pin": pin, "link": link, "fx": row[name + "x"], "fy": row[name + "y"], "moment": 0.0}
+            reactions += [{**place, "pin": pin, "link": link, "fx": row[name + "x"], "fy": row[name + "y"], "moment": None}
                           for name, (pin, link) in ends.items()]
             drives.append({**place, "drive": crank, "position": row["crank"], "rate": row["speed"], "force": row["torque"]})
         result.update(reactions=Rows(reactions, tables["reactions"].failed), drive=Rows(drives, []))
@@ -199,6 +199,8 @@ class Place:
         for (pin, link), triple in state.forces.items():
             row = row_of(self.reactions, self.key + (pin, link), "reactions.dat")
             for column, value, scale in zip(("fx", "fy", "moment"), triple, (force, force, moment)):
+                if row[column] is None:  # tables of four-bars have none
+                    continue
                 unit = units["moment" if column == "moment" else "force"]
                 self.add("force", row[column], value / unit, scale / float(unit), f"{column} on {link} at {pin}")
         for row, value in zip((row for row in model.rows if row[0] == "drive"), state.drives):
