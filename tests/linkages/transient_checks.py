@@ -149,7 +149,7 @@ def run(options, name, text):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", default="build/release/flexmech")
-    parser.add_argument("--scratch", default="/tmp/transient_checks")
+    parser.add_argument("--scratch", default=os.path.join("build", "transient_checks"))
     options = parser.parse_args()
     os.makedirs(options.scratch, exist_ok=True)
     beam = Arm()

@@ -164,7 +164,7 @@ def main():
     parser.add_argument("seed", type=int)
     parser.add_argument("count", type=int)
     parser.add_argument("--program", default="build/release/flexmech")
-    parser.add_argument("--scratch", default="/tmp/estimates_transient")
+    parser.add_argument("--scratch", default=os.path.join("build", "estimates_transient"))
     parser.add_argument("--seconds", type=float, default=120.0, help="a run may take; longer ones are left out")
     options = parser.parse_args()
     signal.signal(signal.SIGINT, signal.default_int_handler)
