@@ -15,6 +15,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 from glob import glob
 
 import compare_tables
@@ -36,6 +37,7 @@ class Group:
 
     def __init__(self, title):
         self.title, self.passed, self.failed, self.skipped = title, 0, 0, 0
+        self.started = time.monotonic()
 
     def result(self, name, why=None):
         """One test: passed, unless there is a reason why not."""
@@ -68,7 +70,7 @@ class Group:
 
     def end(self):
         skipped = f", {self.skipped} skipped" if self.skipped else ""
-        print(f"{self.title:<32}{self.passed:5d} passed, {self.failed:3d} failed{skipped}", flush=True)
+        print(f"{self.title:<32}{self.passed:5d} passed, {self.failed:3d} failed, {time.monotonic() - self.started:5.0f} s{skipped}", flush=True)
         Group.passed += self.passed
         Group.failed += self.failed
 
