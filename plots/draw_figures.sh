@@ -160,10 +160,10 @@ trap 'exit 141' PIPE
 mkdir "$new" || fail "cannot write into $outdir"
 
 # ask WANT TABLE: see tables.awk
-ask() { awk -v want="$1" -f "$PLOTS/tables.awk" < "$2"; }
+ask() { awk -v want="$1" -f "$PLOTS/quoted.awk" -f "$PLOTS/tables.awk" < "$2"; }
 
 # A text as gnuplot reads it, for awk.
-quoting=$(sed -n '/^function quoted/,/^}/p' "$PLOTS/tables.awk")
+quoting=$(cat "$PLOTS/quoted.awk")
 
 # have TABLE [COLUMN]: it is there and has rows.
 have() {

@@ -107,7 +107,7 @@ set minussign
 
 quoted(text) = strstrt(text, "'") == 0 ? "'".text."'" : \
     "'".text[1 : strstrt(text, "'") - 1]."'\\'".quoted(text[strstrt(text, "'") + 1 : *])
-ask(table, want) = "awk -v want=".quoted(want)." -f ".quoted(plots."tables.awk")." < ".quoted(table)
+ask(table, want) = "awk -v want=".quoted(want)." -f ".quoted(plots."quoted.awk")." -f ".quoted(plots."tables.awk")." < ".quoted(table)
 answer(table, want) = system(ask(table, want))
 keep(block, table, want) = "< awk -v datablock=".block.ask(table, want)[4 : *]     # to be loaded: the answer as $block
 same(a, b) = abs(a - b) <= 1e-9 * (1 + abs(b))
