@@ -26,7 +26,7 @@ module model_reader
   use materials, only: read_material
   use mesh_checks, only: check_meshes
   use models, only: drives_length, has_gauge_histories, has_law, is_four_bar, is_loaded, &
-    is_moving, is_sprung, model_t, needs_mesh, report_number
+    is_moving, is_sprung, model_t, needs_frequencies, needs_mesh, needs_response, report_number
   use motor_cards, only: read_motor
   use motor_checks, only: find_motor_line
   use process_cards, only: is_process_form, process_card_t, read_process_force, &
@@ -108,6 +108,7 @@ contains
     call check_tables(cards, diagnostics)
     call find_law(cards, diagnostics, model)
     call find_motor_line(cards, diagnostics, model)
+    call find_cuts(reports, model)
     call choose_reports(reports, diagnostics, model)
     if (has_law(model)) call refuse_reports_of_law(diagnostics, model)
     if (.not. chooses_rate) call take_rate_of_deck(model)
@@ -142,6 +143,22 @@ contains
     call check_meshes(cards, diagnostics, model)
     call check_bare_units(cards, diagnostics, model)
   end subroutine read_model
+
+  !> Whether links bend. `REPORT drive` bends those of four-bars, but one with a spring at a point
+  !! of a link that bends is a linkage of more parts: that is decided here, before reports are
+  !! chosen, as if links were rigid.
+  pure subroutine find_cuts(reports, model)
+    type(report_kind_t), intent(in) :: reports(:)
+    type(model_t), intent(inout) :: model
+
+    type(model_t) :: rigid
+    type(diagnostics_t) :: repeated
+
+    if (size(model%springs) == 0 .or. size(model%points) == 0) return
+    rigid = model
+    call choose_reports(reports, repeated, rigid)
+    model%cuts_at_springs = needs_frequencies(rigid) .or. needs_response(rigid)
+  end subroutine find_cuts
 
   !> Takes, of two reports with one name, that on the linkage of the deck.
   pure subroutine choose_reports(reports, diagnostics, model)

@@ -81,6 +81,7 @@ module models
     type(law_card_t), allocatable :: laws(:)    !! LAW cards
     type(drive_t), allocatable :: drives(:)     !! the first one's positions are those of CRANK
     logical :: is_structure = .false.           !! without a drive, by intent: one position
+    logical :: cuts_at_springs = .false.        !! links bend: a point with a spring is a pin
     type(token_t) :: drive                      !! first word of the first DRIVE card: the driven
                                                 !! link, or the pin of the driven slider
     integer :: branch = branch_open             !! of a four-bar: branch_open or branch_crossed
@@ -231,8 +232,7 @@ contains
     integer :: i, k
 
     holds = .false.
-    if (.not. needs_frequencies(model) .and. .not. needs_response(model)) return
-    if (.not. allocated(model%springs)) return
+    if (.not. model%cuts_at_springs .or. .not. allocated(model%springs)) return
     do i = 1, size(model%springs)
       do k = 1, 2
         if (model%springs(i)%ends(k)%line > 0) holds = holds .or. &
