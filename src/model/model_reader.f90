@@ -54,6 +54,7 @@ module model_reader
   use unit_checks, only: check_bare_units
   use units, only: coherent_unit, dimension_velocity, from_si, si_units, unit_system_t, unit_t
   use value_lists, only: empty_list, value_list_t
+  use vibration_checks, only: most_modes
   implicit none (type, external)
   private
 
@@ -121,9 +122,6 @@ contains
       allocate (model%meshes(1))
       call set_default_mesh(model%meshes(1))
     end if
-    ! Rigid links have no more modes than freedoms.
-    if (model%modes_word%line == 0 .and. all(model%links%rigid)) model%modes = &
-      max(1, min(model%modes, count(model%drives%is_free)))
     call check_required(cards, reports, diagnostics, model)
     call check_structure(diagnostics, model)
     call check_names(diagnostics, model)
@@ -132,6 +130,7 @@ contains
     call check_links(diagnostics, model)
     call check_joints(diagnostics, model)
     call check_drives(diagnostics, model)
+    if (model%modes_word%line == 0) model%modes = max(1, min(model%modes, most_modes(model)))
     call check_springs(diagnostics, model)
     call check_frictions(diagnostics, model)
     call check_balance(diagnostics, model)
