@@ -14,7 +14,7 @@ module model_reader
   use errors, only: error_of_writing
   use four_bar_branches, only: find_four_bar_branch
   use friction_checks, only: check_frictions, read_frictions
-  use joint_cards, only: read_clamp, read_guide, read_pin, read_slider, read_weld
+  use joint_cards, only: read_guide, read_pin, read_slider, read_weld
   use joint_checks, only: check_joints
   use kinds, only: wp
   use law_cards, only: read_law, read_time
@@ -478,7 +478,7 @@ contains
       case ("WELD")
         call read_weld(card, diagnostics, model%welds(number))
       case ("CLAMP")
-        call read_clamp(card, diagnostics, model%clamps(number))
+        call read_weld(card, diagnostics, model%clamps(number))
       case ("GUIDE")
         call read_guide(card, system, diagnostics, model%guides(number))
       case ("SLIDER")

@@ -120,6 +120,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
+    character(len=:), allocatable :: what
     integer :: free, report
 
     free = count(model%drives%is_free)
@@ -127,9 +128,13 @@ contains
     report = findloc(model%reports%kind%response .or. model%reports%kind%beams .and. free == 0, &
       .true., dim=1, back=.true.)
     if (report > 0) then
-      call add_error(diagnostics, model%reports(report)%keyword, "all links are rigid: nothing "// &
-        "bends"//trim(merge("                      ", ", and no drive is free", &
-        model%reports(report)%kind%response)), model%links(1)%rigid_word, "the first rigid link")
+      what = "all links are rigid: nothing bends"
+      if (.not. model%reports(report)%kind%response) what = what//", and no drive is free"
+      if (model%is_structure) what = what//"; expected a DRIVE card with 'free' for every "// &
+        "freedom, and CRANK: a body on springs alone hangs on links without mass, whose drives "// &
+        "are free"
+      call add_error(diagnostics, model%reports(report)%keyword, what, &
+        model%links(1)%rigid_word, "the first rigid link")
     else if (model%modes > free) then
       call add_error(diagnostics, model%modes_word, "rigid links have as many modes as there "// &
         "are free drives, "//to_string(free)//", not "//to_string(model%modes))
