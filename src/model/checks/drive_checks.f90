@@ -20,9 +20,9 @@ contains
 
   !> Looks up what these cards name. Errors: an unknown link, pin or guide, the angle of a link
   !! without a ground pivot or with several, a link against itself, a pin that does not slide there,
-  !! the length of a link with more than two pins, one thing driven twice, a clamped link driven; a
-  !! branch of a fixed pin, the side of a way from a pin to itself, forward or backward of a pin that
-  !! does not slide.
+  !! the length of a link with more than two pins, one thing driven twice, a clamped link
+  !! driven; a branch of a fixed pin, the side of a way from a pin to itself, forward or backward of
+  !! a pin that does not slide.
   pure subroutine check_drives(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(inout) :: model             !! numbers of links and sliders are set
