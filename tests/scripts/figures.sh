@@ -578,6 +578,15 @@ growth_without_intervals() {
   run 0 --quiet --out "$scratch/out" "$scratch/calm.deck" && drawn calm figures growth multipliers
 }
 
+# A structure has modes, and neither a crank nor figures over its positions.
+structure_figures() {
+  "$program" --quiet --out "$scratch/out" inputs/portal.deck || return 1
+  drawn portal figures modes mode_1_crank_0_speed_0 mode_2_crank_0_speed_0 mode_3_crank_0_speed_0 mode_4_crank_0_speed_0 || return 1
+  sh plots/flexmech-plot --format svg "$scratch/out/portal" >"$scratch/stdout" || return 1
+  grep -q 'at rest' "$scratch/out/portal/figures/modes.svg" || { echo "modes.svg does not say: at rest"; return 1; }
+  ! grep -l '>[^<]*crank' "$scratch/out/portal/figures/"*.svg || { echo "a structure has no crank"; return 1; }
+}
+
 root=$(pwd)
 
 check "figures of inputs/rigid.deck" rigid_figures
@@ -604,6 +613,7 @@ check "figures of other linkages than four-bars" other_linkages
 check "figures and animations of motions, ranges and pins" moving_linkages
 check "what is fixed to a link moves with it" moving_places
 check "shapes of other linkages" drawn_shapes
+check "figures of structures" structure_figures
 check "springs of a four-bar are drawn" spring_of_a_four_bar
 check "springs of other linkages are drawn" springs_of_other_linkages
 check "installed scripts" installed_plots
