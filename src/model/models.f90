@@ -548,7 +548,8 @@ contains
       (is_moving(model) .or. is_loaded(model) .or. is_sprung(model))
   end function needs_loads
 
-  !> Whether results depend on INERTIA, which determines how the mass of links makes loads.
+  !> Whether results depend on INERTIA, which determines how the mass of links makes loads. At a
+  !! structure it makes none but weights.
   pure function needs_inertia(model) result(needs)
     type(model_t), intent(in) :: model !! as read
     logical :: needs
@@ -556,6 +557,7 @@ contains
     needs = needs_frequencies(model) .and. model%effects == effects_axial .and. &
       (is_moving(model) .or. any(abs(model%gravity) > 0.0_wp))
     needs = (needs .or. needs_masses(model)) .and. any(bears_lumped_masses(model%links))
+    if (model%is_structure) needs = needs .and. any(abs(model%gravity) > 0.0_wp)
   end function needs_inertia
 
   !> A speed in the unit of results: that of the deck to the last digit.
