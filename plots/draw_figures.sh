@@ -160,10 +160,10 @@ trap 'exit 141' PIPE
 mkdir "$new" || fail "cannot write into $outdir"
 
 # ask WANT TABLE: see tables.awk
-ask() { awk -v want="$1" -f "$PLOTS/tables.awk" < "$2"; }
+ask() { awk -v want="$1" -f "$PLOTS/quoted.awk" -f "$PLOTS/tables.awk" < "$2"; }
 
 # A text as gnuplot reads it, for awk.
-quoting=$(sed -n '/^function quoted/,/^}/p' "$PLOTS/tables.awk")
+quoting=$(cat "$PLOTS/quoted.awk")
 
 # have TABLE [COLUMN]: it is there and has rows.
 have() {
@@ -309,6 +309,7 @@ plan_speeds() {
 }
 
 plan_frequencies() {
+    [ -z "$structure" ] || return 0
     [ $errors = yes ] && ask facts frequencies.dat | grep -q 'col_error[1-9]' && plan_speeds errors frequencies.dat
     have_modes || return 0
     plan_speeds frequencies frequencies.dat
@@ -349,7 +350,7 @@ cycle_table() {
     done
 }
 
-# A linkage that is no four-bar.
+# A linkage that is no four-bar. A structure has one position: nothing is drawn over it.
 plan_cycle() {
     if [ -n "$cycle" ] && have "$cycle" && several "$cycle" && can_place; then
         add linkage_positions linkage_positions.gp "$cycle"
@@ -358,7 +359,7 @@ plan_cycle() {
     have kinematics.dat && plan_speeds link_motion "${over}kinematics.dat"
     have pins.dat && plan_speeds pin_motion "${over}pins.dat"
     have points.dat && plan_speeds point_rates "${over}points.dat" 'vx vy ax ay'
-    have reactions.dat && plan_speeds joint_forces "${over}reactions.dat" 'fx fy'
+    [ -z "$structure" ] && have reactions.dat && plan_speeds joint_forces "${over}reactions.dat" 'fx fy'
     plan_bearings
     shaking=
     [ -f shaking.dat ] && shaking=${over}shaking.dat
@@ -569,10 +570,13 @@ esac
 : > "$new/plan"
 other=no
 cycle=
+structure=
 if no_four_bar; then
     other=yes
     cycle=$(cycle_table)
     settings="$settings; is_cycle = 1"
+    [ ! -f echo.deck ] || grep -qi '^DRIVE ' echo.deck || structure=yes
+    [ -z "$structure" ] || settings="$settings; is_structure = 1"
 fi
 if [ -n "$varied" ]; then
     [ $figures = figures ] || fail "$outdir has nothing to animate: its tables are those of a deck with VARY"
@@ -609,6 +613,7 @@ if [ ! -s "$new/plan" ]; then
         fail "$outdir has tables as comma-separated values only; figures are drawn from plain ones (without --format csv-only)"
     [ $figures = figures ] ||
         fail "$outdir has nothing to animate: animations need REPORT kinematics, motion or shapes"
+    [ -z "$structure" ] || fail "$outdir has nothing to draw: of a structure modes are drawn (REPORT shapes)"
     fail "$outdir has no table that a figure can be drawn from"
 fi
 

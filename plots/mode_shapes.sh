@@ -11,7 +11,7 @@ rm -rf "$folder"
 mkdir "$folder" || exit 1
 {
     grep -v '^\(REPORT\|END\)' echo.deck
-    awk -v want='distinct =crank' -f "$PLOTS/tables.awk" < "$table" | sort -g | awk -v cranks="$5" '
+    awk -v want='distinct =crank' -f "$PLOTS/quoted.awk" -f "$PLOTS/tables.awk" < "$table" | sort -g | awk -v cranks="$5" '
         BEGIN { n = split(cranks, crank, ",") }
         {
             for (i = 1; i <= n; i++) if (($1 - crank[i])^2 <= 1e-18*(1 + crank[i]^2)) break
@@ -25,5 +25,5 @@ mkdir "$folder" || exit 1
 }
 awk -v folder="$folder" -v speed="$3" -v modes="$4" -v cranks="$5" -v size="$6" -v parts="$8" -f "$PLOTS/mode_places.awk" \
     "$folder/drawn/geometry.dat" echo.deck "$table" |
-    awk -v folder="$folder" -v bar="$7" -f "$PLOTS/springs.awk" -f "$PLOTS/shapes.awk" || exit 1
+    awk -v folder="$folder" -v bar="$7" -f "$PLOTS/quoted.awk" -f "$PLOTS/springs.awk" -f "$PLOTS/shapes.awk" || exit 1
 cat "$folder/modes"

@@ -85,7 +85,7 @@ do for [k=1:tiles] {
     eval tile(k)
     if (gridded && (k - 1)%tile_columns == 0) { eval line_title(k, "mode ".mode_of(k)) } else { unset label 949 }
     if (gridded && line_of(k) == 1) { eval column_title(k, position(crank_of(k) + 0)) } else { unset label 948 }
-    if (!gridded) { eval caption(1, k, sprintf("mode %s, %s", mode_of(k), position(crank_of(k) + 0))) }
+    if (!gridded) { eval caption(1, k, sprintf(stands ? "mode %s" : "mode %s, %s", mode_of(k), position(crank_of(k) + 0))) }
     number = index_of(mode_of(k), crank_of(k)) - 1
     if (number < 0) {
         eval caption(caption_lines, k, "could not be computed")

@@ -24,4 +24,4 @@ card=$(grep -i '^REPORT *motion' echo.deck)
 pins=motion_pins.dat
 [ -z "$again" ] || pins=$folder/drawn/motion_pins.dat
 awk -v stride="$2" -v count="$3" -f "$PLOTS/motion_places.awk" "$folder/drawn/geometry.dat" "$pins" |
-    awk -v folder="$folder" -v share="$4" -f "$PLOTS/springs.awk" -f "$PLOTS/shapes.awk"
+    awk -v folder="$folder" -v share="$4" -f "$PLOTS/quoted.awk" -f "$PLOTS/springs.awk" -f "$PLOTS/shapes.awk"

@@ -1,6 +1,6 @@
 # Any linkage drawn as bodies: from geometry.dat, on standard input, to files in a folder, and facts as gnuplot assignments on
 # standard output.
-#   awk -v folder=FOLDER -v share=0.014 -f springs.awk -f shapes.awk < geometry.dat
+#   awk -v folder=FOLDER -v share=0.014 -f quoted.awk -f springs.awk -f shapes.awk < geometry.dat
 # share is half the width of a bar, as a share of the larger side of what the linkage sweeps; bar, in its place, that width itself. Files:
 #   FOLDER/pose_1, pose_2 …   the polygons of a position; an index (two empty lines) has those of one colour, in the order in which they
 #                             are drawn: layers, layer_fill[k], layer_pale[k]; bodies are the first body_layers, pins the others

@@ -19,4 +19,4 @@ mkdir "$folder" || exit 1
     cat "$folder/told" >&2
     exit 1
 }
-awk -v folder="$folder" -v share="$5" -f "$PLOTS/springs.awk" -f "$PLOTS/shapes.awk" < "$folder/drawn/geometry.dat"
+awk -v folder="$folder" -v share="$5" -f "$PLOTS/quoted.awk" -f "$PLOTS/springs.awk" -f "$PLOTS/shapes.awk" < "$folder/drawn/geometry.dat"

@@ -1,4 +1,4 @@
-# Springs and dampers of geometry.dat, for drawings: functions for the scripts that read it, with -f springs.awk before their own.
+# Springs and dampers of geometry.dat, for drawings: functions for the scripts that read it, with -f quoted.awk -f springs.awk before their own.
 #   take_spring(pose, name, part, place, x, y)   a row of part spring, damper or side
 #   spring_numbers(pose)                         behind a blank each, four numbers for every spring, in their order: both ends, or of a
 #                                                torsional one its pin and the angles of its two links from there, in radians, the second
@@ -62,15 +62,4 @@ function print_springs(    s, kinds, names) {
         names = names " \"" spring_name[s] "\""
     }
     printf "springs = %d; spring_kinds = \"%s\"; spring_names = %s\n", springs, substr(kinds, 2), quoted(names)
-}
-
-# A text as gnuplot reads it: within apostrophes, or, where it has one itself (gnuplot 5.4 misreads two of them), within quotation marks
-# with what means something there by its octal number.
-function quoted(text) {
-    if (text !~ /\047/) return "\047" text "\047"
-    gsub(/\\/, "\\\\134", text)
-    gsub(/"/, "\\\\042", text)
-    gsub(/`/, "\\\\140", text)
-    gsub(/@/, "\\\\100", text)
-    return "\"" text "\""
 }

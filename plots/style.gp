@@ -107,7 +107,7 @@ set minussign
 
 quoted(text) = strstrt(text, "'") == 0 ? "'".text."'" : \
     "'".text[1 : strstrt(text, "'") - 1]."'\\'".quoted(text[strstrt(text, "'") + 1 : *])
-ask(table, want) = "awk -v want=".quoted(want)." -f ".quoted(plots."tables.awk")." < ".quoted(table)
+ask(table, want) = "awk -v want=".quoted(want)." -f ".quoted(plots."quoted.awk")." -f ".quoted(plots."tables.awk")." < ".quoted(table)
 answer(table, want) = system(ask(table, want))
 keep(block, table, want) = "< awk -v datablock=".block.ask(table, want)[4 : *]     # to be loaded: the answer as $block
 same(a, b) = abs(a - b) <= 1e-9 * (1 + abs(b))
@@ -132,8 +132,8 @@ ordinal(n) = n <= 10 ? word("first second third fourth fifth sixth seventh eight
 capital(text) = substr("ABCDEFGHIJKLMNOPQRSTUVWXYZ", strstrt("abcdefghijklmnopqrstuvwxyz", text[1:1]), \
     strstrt("abcdefghijklmnopqrstuvwxyz", text[1:1])).text[2:*]
 at_crank(crank) = of_cycle ? drive_subject.sprintf(" at %.10g", crank).(unit_crank eq "deg" ? "°" : " ".unit_crank) : sprintf("θ₂ = %.10g°", crank)
-at_speed(speed, unit) = by_law ? (law_name eq "" ? "by its law" : "by law ".law_name) : of_cycle ? drive_subject.sprintf(" at %.6g %s", speed, typeset(unit)) : sprintf("ω₂ = %.6g %s", speed, typeset(unit))
-at_place(crank, speed, unit) = of_cycle && !by_law ? at_crank(crank).sprintf(" and %.6g %s", speed, typeset(unit)) \
+at_speed(speed, unit) = stands ? "at rest" : by_law ? (law_name eq "" ? "by its law" : "by law ".law_name) : of_cycle ? drive_subject.sprintf(" at %.6g %s", speed, typeset(unit)) : sprintf("ω₂ = %.6g %s", speed, typeset(unit))
+at_place(crank, speed, unit) = stands ? "at rest" : of_cycle && !by_law ? at_crank(crank).sprintf(" and %.6g %s", speed, typeset(unit)) \
     : (of_cycle ? "" : "at ").at_crank(crank).", ".at_speed(speed, unit)
 
 # Of a drive with a law (law_name, which draw_figures.sh hands over) tables are over time.
@@ -142,6 +142,7 @@ against = by_law ? "against time" : "against crank angle"
 
 # Of a linkage that is no four-bar (is_cycle, which draw_figures.sh hands over) axes and titles name what the first DRIVE moves.
 of_cycle = exists("is_cycle")
+stands = exists("is_structure")     # no crank and no speed: it has one position, and is at rest
 driven = of_cycle ? system("sed -n 's/^DRIVE *//p' echo.deck 2> /dev/null | sed '1s/ *!.*//; 1s/ *law=[^ ]*//; 1q'") : ""
 driven_word(k) = words(driven) >= k ? word(driven, k) : ""
 drive_subject = driven eq "" ? "crank" : driven_word(1)

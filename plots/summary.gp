@@ -55,7 +55,7 @@ do for [panel=1:panels] {
     }
 }
 
-source_of(k) = "< awk -v want=".quoted("rows_by ".parameter)." -f ".quoted(plots."tables.awk")." < ".quoted(table)
+source_of(k) = "< awk -v want=".quoted("rows_by ".parameter)." -f ".quoted(plots."quoted.awk")." -f ".quoted(plots."tables.awk")." < ".quoted(table)
 x = sprintf("column(%d)", place)
 picked = "1"
 extent = answer(table, "range ".parameter)

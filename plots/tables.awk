@@ -769,17 +769,6 @@ function turned(angle) { return atan2(sin(angle), cos(angle)) }
 
 function smaller(a, b) { return a < b ? a : b }
 
-# A text as gnuplot reads it: within apostrophes, or, where it has one itself (gnuplot 5.4 misreads two of them), within quotation marks
-# with what means something there by its octal number.
-function quoted(text) {
-    if (text !~ /\047/) return "\047" text "\047"
-    gsub(/\\/, "\\\\134", text)
-    gsub(/"/, "\\\\042", text)
-    gsub(/`/, "\\\\140", text)
-    gsub(/@/, "\\\\100", text)
-    return "\"" text "\""
-}
-
 function cell(column) { return column ~ /^=/ ? $at[substr(column, 2)] : short($at[column]) }
 
 function short(text) { return text ~ /^[-+.]*[0-9]/ ? pointed(sprintf("%.12g", text)) : text }

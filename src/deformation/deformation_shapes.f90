@@ -13,6 +13,10 @@ module deformation_shapes
   implicit none (type, external)
   private
 
+  !> A link without mass has shapes, too: this line density is in the scale of its displacements,
+  !! and in M no digit of masses that it carries [kg/m].
+  real(wp), parameter :: least_line_density = 1.0e-40_wp
+
   public :: deformation_shapes_t, bending_shapes, axial_shapes, bending_unknowns, shear_scale
 
   !> Effect of every unknown along the link. A function is stored as its Legendre coefficients in
@@ -301,7 +305,8 @@ contains
     shapes%part = shapes%last(1:) - shapes%last(:elements - 1)
     shapes%middle = 0.5_wp*(shapes%last(:elements - 1) + shapes%last(1:))
     h = length/elements
-    shapes%weight = [(sqrt(line_density*h/(2*j + 1)), j=0, coefficients - 1)]
+    shapes%weight = [(sqrt(max(line_density, least_line_density)*h/(2*j + 1)), j=0, &
+      coefficients - 1)]
     allocate (shapes%rotation_weight(0))
     if (present(rotary_inertia)) then
       if (rotary_inertia > 0.0_wp) then

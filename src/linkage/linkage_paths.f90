@@ -148,7 +148,7 @@ contains
     type(pose_t) :: pose, next
     type(kinematic_coefficients_t) :: coefficients
     real(wp) :: c, step, most_step, goal, unit
-    integer :: halvings, stations
+    integer :: halvings, stations, turns
     logical :: is_angle, is_good
 
     is_angle = linkage%drives(1)%kind == drives_angle
@@ -162,6 +162,7 @@ contains
     stations = 0
     call append_station(path, stations, c, pose, coefficients, unit)
     halvings = 0
+    turns = 1
     goal = start + sense*360.0_wp
     if (any(abs(pose%sine) < dead_point_sine)) then
       call trim_path(path, stations)
@@ -188,11 +189,13 @@ contains
       if (is_angle) then
         if (abs(c - goal) > 0.0_wp) cycle
         if (repeats(pose, first_pose, span)) then
-          path%period = abs(goal - start)
+          ! Whole turns to the last digit, wherever they start.
+          path%period = turns*360.0_wp
           exit
         end if
-        if (abs(goal - start) >= 360.0_wp*most_turns) exit
-        goal = goal + sense*360.0_wp
+        if (turns >= most_turns) exit
+        turns = turns + 1
+        goal = start + sense*turns*360.0_wp
       else
         if (abs(c - start) > 10.0_wp*span) exit
       end if

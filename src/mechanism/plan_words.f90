@@ -1,9 +1,9 @@
 !> The plan of a linkage in words: how it is placed, group by group.
 module plan_words
   use kinds, only: wp
-  use linkages, only: group_t, groups_carried, groups_cross_slide, groups_driven_dyad, &
-    groups_dyad, groups_on_line, groups_placed, groups_spanned, groups_through_pin, &
-    groups_turned, groups_two_lines
+  use linkages, only: drives_nothing, group_t, groups_carried, groups_cross_slide, &
+    groups_driven_dyad, groups_dyad, groups_on_line, groups_placed, groups_spanned, &
+    groups_through_pin, groups_turned, groups_two_lines
   use mechanisms, only: mechanism_t
   use text, only: append_string, plural, string_t, to_string
   implicit none (type, external)
@@ -21,8 +21,12 @@ contains
     integer :: i
 
     associate (linkage => mechanism%linkage)
-      call append_string(notes, "linkage of "//to_string(size(linkage%bodies) + 1)// &
-        " links with the ground, and "//plural(size(linkage%drives), "drive"))
+      if (any(linkage%drives%kind == drives_nothing)) then
+        call append_string(notes, "structure of "//plural(size(linkage%bodies), "link"))
+      else
+        call append_string(notes, "linkage of "//to_string(size(linkage%bodies) + 1)// &
+          " links with the ground, and "//plural(size(linkage%drives), "drive"))
+      end if
       if (linkage%has_crank) call append_string(notes, "placed: "//mechanism%names(1)%text// &
         " turns about "//mechanism%pin_names(linkage%bodies(1)%first_pin)%text)
       do i = 1, size(linkage%groups)

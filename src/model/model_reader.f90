@@ -14,7 +14,7 @@ module model_reader
   use errors, only: error_of_writing
   use four_bar_branches, only: find_four_bar_branch
   use friction_checks, only: check_frictions, read_frictions
-  use joint_cards, only: read_clamp, read_guide, read_pin, read_slider, read_weld
+  use joint_cards, only: read_guide, read_pin, read_slider, read_weld
   use joint_checks, only: check_joints
   use kinds, only: wp
   use law_cards, only: read_law, read_time
@@ -26,7 +26,7 @@ module model_reader
   use materials, only: read_material
   use mesh_checks, only: check_meshes
   use models, only: drives_length, has_gauge_histories, has_law, is_four_bar, is_loaded, &
-    is_moving, is_sprung, model_t, needs_mesh, report_number
+    is_moving, is_sprung, model_t, needs_frequencies, needs_mesh, needs_response, report_number
   use motor_cards, only: read_motor
   use motor_checks, only: find_motor_line
   use process_cards, only: is_process_form, process_card_t, read_process_force, &
@@ -54,6 +54,7 @@ module model_reader
   use unit_checks, only: check_bare_units
   use units, only: coherent_unit, dimension_velocity, from_si, si_units, unit_system_t, unit_t
   use value_lists, only: empty_list, value_list_t
+  use vibration_checks, only: most_modes
   implicit none (type, external)
   private
 
@@ -108,6 +109,7 @@ contains
     call check_tables(cards, diagnostics)
     call find_law(cards, diagnostics, model)
     call find_motor_line(cards, diagnostics, model)
+    call find_cuts(reports, model)
     call choose_reports(reports, diagnostics, model)
     if (has_law(model)) call refuse_reports_of_law(diagnostics, model)
     if (.not. chooses_rate) call take_rate_of_deck(model)
@@ -120,9 +122,6 @@ contains
       allocate (model%meshes(1))
       call set_default_mesh(model%meshes(1))
     end if
-    ! Rigid links have no more modes than freedoms.
-    if (model%modes_word%line == 0 .and. all(model%links%rigid)) model%modes = &
-      max(1, min(model%modes, count(model%drives%is_free)))
     call check_required(cards, reports, diagnostics, model)
     call check_structure(diagnostics, model)
     call check_names(diagnostics, model)
@@ -131,6 +130,7 @@ contains
     call check_links(diagnostics, model)
     call check_joints(diagnostics, model)
     call check_drives(diagnostics, model)
+    if (model%modes_word%line == 0) model%modes = max(1, min(model%modes, most_modes(model)))
     call check_springs(diagnostics, model)
     call check_frictions(diagnostics, model)
     call check_balance(diagnostics, model)
@@ -142,6 +142,22 @@ contains
     call check_meshes(cards, diagnostics, model)
     call check_bare_units(cards, diagnostics, model)
   end subroutine read_model
+
+  !> Whether links bend. `REPORT drive` bends those of four-bars, but one with a spring at a point
+  !! of a link that bends is a linkage of more parts: that is decided here, before reports are
+  !! chosen, as if links were rigid.
+  pure subroutine find_cuts(reports, model)
+    type(report_kind_t), intent(in) :: reports(:)
+    type(model_t), intent(inout) :: model
+
+    type(model_t) :: rigid
+    type(diagnostics_t) :: repeated
+
+    if (size(model%springs) == 0 .or. size(model%points) == 0) return
+    rigid = model
+    call choose_reports(reports, repeated, rigid)
+    model%cuts_at_springs = needs_frequencies(rigid) .or. needs_response(rigid)
+  end subroutine find_cuts
 
   !> Takes, of two reports with one name, that on the linkage of the deck.
   pure subroutine choose_reports(reports, diagnostics, model)
@@ -462,7 +478,7 @@ contains
       case ("WELD")
         call read_weld(card, diagnostics, model%welds(number))
       case ("CLAMP")
-        call read_clamp(card, diagnostics, model%clamps(number))
+        call read_weld(card, diagnostics, model%clamps(number))
       case ("GUIDE")
         call read_guide(card, system, diagnostics, model%guides(number))
       case ("SLIDER")

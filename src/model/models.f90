@@ -81,6 +81,7 @@ module models
     type(law_card_t), allocatable :: laws(:)    !! LAW cards
     type(drive_t), allocatable :: drives(:)     !! the first one's positions are those of CRANK
     logical :: is_structure = .false.           !! without a drive, by intent: one position
+    logical :: cuts_at_springs = .false.        !! links bend: a point with a spring is a pin
     type(token_t) :: drive                      !! first word of the first DRIVE card: the driven
                                                 !! link, or the pin of the driven slider
     integer :: branch = branch_open             !! of a four-bar: branch_open or branch_crossed
@@ -231,8 +232,7 @@ contains
     integer :: i, k
 
     holds = .false.
-    if (.not. needs_frequencies(model) .and. .not. needs_response(model)) return
-    if (.not. allocated(model%springs)) return
+    if (.not. model%cuts_at_springs .or. .not. allocated(model%springs)) return
     do i = 1, size(model%springs)
       do k = 1, 2
         if (model%springs(i)%ends(k)%line > 0) holds = holds .or. &
@@ -548,7 +548,8 @@ contains
       (is_moving(model) .or. is_loaded(model) .or. is_sprung(model))
   end function needs_loads
 
-  !> Whether results depend on INERTIA, which determines how the mass of links makes loads.
+  !> Whether results depend on INERTIA, which determines how the mass of links makes loads. At a
+  !! structure it makes none but weights.
   pure function needs_inertia(model) result(needs)
     type(model_t), intent(in) :: model !! as read
     logical :: needs
@@ -556,6 +557,7 @@ contains
     needs = needs_frequencies(model) .and. model%effects == effects_axial .and. &
       (is_moving(model) .or. any(abs(model%gravity) > 0.0_wp))
     needs = (needs .or. needs_masses(model)) .and. any(bears_lumped_masses(model%links))
+    if (model%is_structure) needs = needs .and. any(abs(model%gravity) > 0.0_wp)
   end function needs_inertia
 
   !> A speed in the unit of results: that of the deck to the last digit.

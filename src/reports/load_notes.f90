@@ -64,7 +64,8 @@ contains
     associate (this => mechanism%linkage%bodies(body))
       if (has_own_mass(model%links(mechanism%links(body)))) then
         words = "a body of its own"
-      else if (this%line_density <= 0.0_wp .and. this%own_lumps == 0) then
+      else if (this%line_density <= 0.0_wp .and. sum(this%lumps(:this%own_lumps)%mass) <= 0.0_wp) &
+        then
         words = "without mass"
       else if (mechanism%load_elements(body) > 0) then
         words = "lumped on "//plural(mechanism%load_elements(body), "element")
@@ -158,12 +159,14 @@ contains
     call append_string(notes, acceleration_note(model))
   end subroutine append_motion_notes
 
-  !> Angular acceleration of the crank, or the name of its law.
+  !> Angular acceleration of the crank, or the name of its law, or that nothing moves.
   pure function acceleration_note(model) result(note)
     type(model_t), intent(in) :: model !! in SI
     character(len=:), allocatable :: note
 
-    if (has_law(model)) then
+    if (model%is_structure) then
+      note = "structure: one position, at rest; speed and crank are 0"
+    else if (has_law(model)) then
       note = "speed and acceleration of the first drive: by law "//model%drives(1)%law%text
     else if (drives_length(model)) then
       note = "acceleration of the first drive: "//to_string(from_si(model%acceleration, &

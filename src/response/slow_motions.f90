@@ -633,22 +633,27 @@ contains
 
   !> Mass, stiffness and damping matrix of the linkage frozen at a sample of the coarse grid, under
   !! the axial forces of a speed.
-  pure subroutine frozen_matrices(basis, speed, sample, mass, stiffness, damping)
+  pure subroutine frozen_matrices(basis, speed, sample, mass, stiffness, damping, alone)
     type(slow_basis_t), intent(in) :: basis
     real(wp), intent(in) :: speed               !! ω2 [rad/s]
     integer, intent(in) :: sample
     real(wp), intent(out) :: mass(:, :)         !! (number, number) [s²]
     real(wp), intent(out) :: stiffness(:, :)    !! (number, number)
     real(wp), intent(out), optional :: damping(:, :) !! (number, number) of the slow coordinates [s]
+    logical, intent(in), optional :: alone      !! without followers; absent: with them
 
+    logical :: follow
+
+    follow = allocated(basis%products)
+    if (present(alone)) follow = follow .and. .not. alone
     associate (sums => basis%sums(sample, :, :), m => basis%number)
       if (present(damping)) damping = reshape(sums(:, of_rate), [m, m])
       mass = reshape(sums(:, of_mass), [m, m])
       stiffness = reshape(sums(:, of_stiffness) + speed**2*sums(:, of_speed) + sums(:, of_loads), &
         [m, m])
     end associate
-    if (allocated(basis%products)) stiffness = stiffness - frozen_stiffness(basis%products(:, :, &
-      sample), speed, mass, stiffness)
+    if (follow) stiffness = stiffness - frozen_stiffness(basis%products(:, :, sample), speed, &
+      mass, stiffness)
   end subroutine frozen_matrices
 
   !> One step: coordinates and momenta at its end from those at its start and the loads at its

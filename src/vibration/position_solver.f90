@@ -14,6 +14,7 @@ module position_solver
   use linkages, only: linkage_t
   use load_cases, only: case_count
   use load_sizes, only: axial_sizes, second_order_work
+  use massless_links, only: refuse_missing_modes
   use matrix_rounding, only: find_matrix_errors
   use mesh_solver, only: solve_long_mesh, solve_mesh
   use mode_prints, only: prints_of
@@ -130,6 +131,8 @@ contains
 
     n = size(request%speed)
     factor = load_factors(request)
+    call refuse_missing_modes(linkage%bodies, work%continuum%equations, model%layout, &
+      modes_for_dampers(structure, model, request%modes), result%outcome)
     call move_alloc(work%continuum%found, found)
     call solve_speeds(state%crank, factor, modes_for_dampers(structure, model, request%modes), &
       want_shapes .and. request%method == by_orders .or. damper_count(structure) > 0, &

@@ -30,7 +30,6 @@ TABLES = {
     "transient": (["speed", "time"], ["point"], ["ux", "uy"], "error"),
 }
 NUMBERS = {"frequencies": (["speed", "crank"], [(f"f{k}", f"error{k}") for k in (1, 2, 3)])}
-TURNING = {"sizing", "response", "strains", "torque", "transient", "peaks", "balance"}
 REPORTS = sorted(set(TABLES) | set(NUMBERS) | {"peaks", "shapes", "branches", "linkage", "balance", "equilibrium"})
 
 
@@ -73,8 +72,7 @@ PIN B {b[0]!r} {b[1]!r}
     whole += f"GAUGE g {name} at={gauge*length!r}\n"
     where = f"{name} at={gauge*length!r}" if gauge < part else f"{second} at={(gauge - part)*length!r}"
     halves += f"GAUGE g {where}\n"
-    # Pieces of a rod are placed by iterations: reports of positions.
-    for report in REPORTS if name == "crank" else sorted(set(REPORTS) - TURNING):
+    for report in REPORTS:
         line = f"REPORT {report}" + {"transient": " turns=0.3", "shapes": " crank=90"}.get(report, "") + "\n"
         whole += line
         halves += line
@@ -163,8 +161,6 @@ def compare(folders, name, last):
                 off = abs(float(row[value])/float(other[value]) - 1)
                 if off > 1e-13 + float(row[error]) + float(other[error]):
                     said.append(f"{table} {[row[k] for k in keys]} {value}: {row[value]} {other[value]}, off by {off:.2e}")
-    if name == "rod":
-        return said
     whole, halves = ({row["link"]: row for row in rows(folder / "peaks.dat")} for folder in folders)
     for value in ("strain", "stress", "deflection"):
         a, b = float(whole[name][value]), max(float(halves[k][value]) for k in (name, "half"))

@@ -153,7 +153,7 @@ critical_speeds() {
         done
       done
     } >"$scratch/critical.dat"
-    awk -v want='critical 10 1000' -f plots/tables.awk <"$scratch/critical.dat" >"$scratch/found"
+    awk -v want='critical 10 1000' -f plots/quoted.awk -f plots/tables.awk <"$scratch/critical.dat" >"$scratch/found"
     python3 - "$scratch/found" "${unit#*:}" <<'END_OF_PYTHON' || return 1
 import sys
 
@@ -169,7 +169,7 @@ assert all(a[:2] == b[:2] and abs(a[2] - b[2]) < 1e-6*b[2] for a, b in zip(found
 END_OF_PYTHON
   done
   sed '/ 360 /d; / 270 /d' "$scratch/critical.dat" >"$scratch/part.dat"
-  [ -z "$(awk -v want='critical 10 1000' -f plots/tables.awk <"$scratch/part.dat")" ] || { echo "a part of a turn has a mean"; return 1; }
+  [ -z "$(awk -v want='critical 10 1000' -f plots/quoted.awk -f plots/tables.awk <"$scratch/part.dat")" ] || { echo "a part of a turn has a mean"; return 1; }
 }
 
 # Speeds of which one is the beginning of the other, failed rows, a single position, a name with an apostrophe.
@@ -247,7 +247,7 @@ modes_of_linkages() {
 
 # A curve drawn through rows of the table meets its corners, each of which is there twice, and does not swing out beside them.
 square_corners() {
-  awk -v want="shape 3 0 0" -f plots/tables.awk <"$scratch/out/jansen_frames/shapes.dat" >"$scratch/curves"
+  awk -v want="shape 3 0 0" -f plots/quoted.awk -f plots/tables.awk <"$scratch/out/jansen_frames/shapes.dat" >"$scratch/curves"
   awk '!/^#/ && $1 == 0 && $2 == 0 && $3 == 3 && $5 == "shank" { if (rows++ && $6 == s) printf "%.9g %.9g %.9g %.9g\n", $7, $8, $9, $10; s = $6 }' \
     "$scratch/out/jansen_frames/shapes.dat" >"$scratch/corners"
   [ "$(wc -l <"$scratch/corners")" -eq 2 ] || { cat "$scratch/corners"; return 1; }
@@ -316,7 +316,7 @@ END_OF_PYTHON
 dead_point() {
   { sed '/^REPORT/d' "$scratch/dead.deck" && echo "REPORT geometry crank=0,90"; } >"$scratch/drawn.deck"
   run 0 --quiet --out "$scratch/out" "$scratch/drawn.deck" || return 1
-  awk -v want=poses -f plots/tables.awk <"$scratch/out/drawn/geometry.dat" >"$scratch/poses"
+  awk -v want=poses -f plots/quoted.awk -f plots/tables.awk <"$scratch/out/drawn/geometry.dat" >"$scratch/poses"
   [ "$(cut -d' ' -f1 "$scratch/poses" | paste -s -d' ' -)" = '0 90' ] || { cat "$scratch/poses"; return 1; }
 }
 
@@ -578,6 +578,15 @@ growth_without_intervals() {
   run 0 --quiet --out "$scratch/out" "$scratch/calm.deck" && drawn calm figures growth multipliers
 }
 
+# A structure has modes, and neither a crank nor figures over its positions.
+structure_figures() {
+  "$program" --quiet --out "$scratch/out" inputs/portal.deck || return 1
+  drawn portal figures modes mode_1_crank_0_speed_0 mode_2_crank_0_speed_0 mode_3_crank_0_speed_0 mode_4_crank_0_speed_0 || return 1
+  sh plots/flexmech-plot --format svg "$scratch/out/portal" >"$scratch/stdout" || return 1
+  grep -q 'at rest' "$scratch/out/portal/figures/modes.svg" || { echo "modes.svg does not say: at rest"; return 1; }
+  ! grep -l '>[^<]*crank' "$scratch/out/portal/figures/"*.svg || { echo "a structure has no crank"; return 1; }
+}
+
 root=$(pwd)
 
 check "figures of inputs/rigid.deck" rigid_figures
@@ -604,6 +613,7 @@ check "figures of other linkages than four-bars" other_linkages
 check "figures and animations of motions, ranges and pins" moving_linkages
 check "what is fixed to a link moves with it" moving_places
 check "shapes of other linkages" drawn_shapes
+check "figures of structures" structure_figures
 check "springs of a four-bar are drawn" spring_of_a_four_bar
 check "springs of other linkages are drawn" springs_of_other_linkages
 check "installed scripts" installed_plots

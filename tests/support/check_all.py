@@ -33,6 +33,7 @@ FAMILIES = [
     ("vibrations, many links", "tests/linkages/random_vibrations.py 1 16 --kind many --program {program}"),
     ("vibrations, slotted", "tests/linkages/random_vibrations.py 1 60 --kind slotted --program {program}"),
     ("described otherwise", "tests/linkages/metamorphic.py 1 300 --program {program}"),
+    ("links without mass", "tests/linkages/massless.py 1 300 --program {program}"),
     ("welded sections", "tests/linkages/welded_sections.py 1 30 --program {program}"),
     ("bodies in equilibrium", "tests/linkages/force_tables.py 1 300 --inputs inputs --program {program}"),
     ("rigid tables", "tests/linkages/rigid_tables.py 1 300 --program {program}"),

@@ -14,7 +14,7 @@ module joint_cards
   private
 
   public :: drawn_pin_t, weld_t, guide_t, slider_t
-  public :: read_pin, read_weld, read_clamp, read_guide, read_slider
+  public :: read_pin, read_weld, read_guide, read_slider
 
   !> Where a moving pin is in the drawing.
   type :: drawn_pin_t
@@ -90,15 +90,6 @@ contains
     allocate (weld%link(size(weld%links)))
     weld%link = 0
   end subroutine read_weld
-
-  !> Reads `CLAMP pin [link …]`. Errors: words or keys that do not fit the card.
-  pure subroutine read_clamp(card, diagnostics, clamp)
-    type(card_t), intent(in) :: card                  !! the CLAMP card
-    type(diagnostics_t), intent(inout) :: diagnostics !! to which errors are added
-    type(weld_t), intent(out) :: clamp                !! to the ground; its names are not looked up
-
-    call read_weld(card, diagnostics, clamp)
-  end subroutine read_clamp
 
   !> Reads `GUIDE name x y angle=`. Errors: words or keys that do not fit the card, an invalid name,
   !! unreadable values, no angle.

@@ -1,7 +1,7 @@
 !> MATERIAL card: the material of a link.
 module materials
   use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, read_name, &
-    require_positive
+    refuse_negative, require_positive
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use kinds, only: wp
@@ -18,6 +18,7 @@ module materials
     type(token_t) :: name
     real(wp) :: youngs_modulus = 0.0_wp !! [Pa]
     real(wp) :: density = 0.0_wp        !! [kg/m³]
+    logical :: is_massless = .false.    !! by `density=0`
     real(wp) :: poissons_ratio = 0.0_wp !! [-]; 0 without `nu=`
     logical :: has_ratio = .false.      !! the card has `nu=`
   end type material_t
@@ -34,7 +35,8 @@ module materials
 contains
 
   !> Reads `MATERIAL name E= density= [nu=]`. Errors: words or keys that do not fit the card, an
-  !! invalid name, a missing or unreadable value, E or density of 0 or less, ν outside (−1, 0.5].
+  !! invalid name, a missing or unreadable value, E of 0 or less, a density below 0, ν
+  !! outside (−1, 0.5].
   !! Warning: a speed of sound that points to wrong units.
   pure subroutine read_material(card, system, diagnostics, material)
     type(card_t), intent(in) :: card                  !! the MATERIAL card
@@ -56,7 +58,9 @@ contains
     if (has_modulus) call require_positive(card, "E", material%youngs_modulus, diagnostics)
     call read_entry_quantity(card, "density", dimension_density, system, known_keys, diagnostics, &
       material%density, has_density)
-    if (has_density) call require_positive(card, "density", material%density, diagnostics)
+    material%is_massless = has_density .and. abs(material%density) <= 0.0_wp
+    if (has_density) call refuse_negative(card%entries(entry_number(card, "density"))%value, &
+      material%density, "'density='", diagnostics)
     call read_entry_quantity(card, "nu", dimension_none, system, .false., diagnostics, &
       material%poissons_ratio, fine)
     material%has_ratio = has_key(card, "nu")

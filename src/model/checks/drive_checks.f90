@@ -20,8 +20,9 @@ contains
 
   !> Looks up what these cards name. Errors: an unknown link, pin or guide, the angle of a link
   !! without a ground pivot or with several, a link against itself, a pin that does not slide there,
-  !! the length of a link with more than two pins, one thing driven twice; a branch of a fixed pin,
-  !! the side of a way from a pin to itself, forward or backward of a pin that does not slide.
+  !! the length of a link with more than two pins, one thing driven twice, a clamped link
+  !! driven; a branch of a fixed pin, the side of a way from a pin to itself, forward or backward of
+  !! a pin that does not slide.
   pure subroutine check_drives(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(inout) :: model             !! numbers of links and sliders are set
@@ -44,10 +45,32 @@ contains
       model%drives(i) = drive
     end do
     call refuse_same_drives(diagnostics, model)
+    call refuse_clamped(diagnostics, model)
     do i = 1, size(model%branches)
       call check_branch(diagnostics, model, links, pins, grounds, model%branches(i))
     end do
   end subroutine check_drives
+
+  !> A clamped link does not turn, and no drive turns it.
+  pure subroutine refuse_clamped(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i, k
+
+    do i = 1, size(model%drives)
+      if (model%drives(i)%kind /= drive_angle .or. model%drives(i)%link == 0) cycle
+      do k = 1, size(model%clamps)
+        if (.not. allocated(model%clamps(k)%link)) cycle
+        if (.not. any(model%clamps(k)%link == model%drives(i)%link)) cycle
+        call add_error(diagnostics, model%clamps(k)%pin, "link '"// &
+          model%links(model%drives(i)%link)%name%text//"' is clamped, and does not turn; "// &
+          "expected the names of other links on this card, or no DRIVE of it", &
+          model%drives(i)%subject, "it is driven here")
+        exit
+      end do
+    end do
+  end subroutine refuse_clamped
 
   !> Looks up the links of a drive.
   pure subroutine find_driven_link(diagnostics, model, links, pins, grounds, drive)

@@ -19,9 +19,9 @@ contains
 
   !> Looks up what these cards name. Errors: an unknown pin, link or guide, a PIN of a ground pivot,
   !! a weld of a link that is not at the pin, of one link twice, or of links that are not in the
-  !! drawing, a clamp at a pin that moves or is of no link, a guide with the name of a link where
-  !! either may stand, a block on its own link or twice on one, a fixed one, an inertia that cannot
-  !! turn.
+  !! drawing, a clamp at a pin that moves or is of no link, a link clamped twice at a pin, a guide
+  !! with the name of a link where either may stand, a block on its own link or twice on one, a
+  !! fixed one, an inertia that cannot turn.
   pure subroutine check_joints(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(inout) :: model             !! numbers of links and guides are set
@@ -46,6 +46,7 @@ contains
       call find_clamp(diagnostics, model, links, pins, grounds, weld)
       model%clamps(i) = weld
     end do
+    call refuse_same_clamps(diagnostics, model)
     do i = 1, size(model%sliders)
       slider = model%sliders(i)
       call find_slider(diagnostics, model, links, guides, pins, grounds, slider)
@@ -109,12 +110,37 @@ contains
         if (ground > 0) then
           call add_error(diagnostics, pin, "'"//pin%text//"' is a ground pivot and has its "// &
             "place already", model%grounds(ground)%pin, "it is fixed here")
+        else if (find_name(pins, pin%text) == 0 .and. holds_part(model, pin%text)) then
+          call add_error(diagnostics, pin, "pin '"//pin%text//"' is of no link; expected it on "// &
+            "the LINK card of the body that slides or is held there (rigid, with 'mass='), or "// &
+            "GROUND "//pin%text//" x y for the end of a spring that is fixed")
         else
           call seek_pin(pin, pins, links, diagnostics, known)
         end if
       end associate
     end do
   end subroutine check_drawing
+
+  !> Whether a SLIDER, SPRING or DAMPER card names a pin.
+  pure function holds_part(model, name) result(holds)
+    type(model_t), intent(in) :: model
+    character(len=*), intent(in) :: name
+    logical :: holds
+
+    integer :: i, k
+
+    holds = .false.
+    do i = 1, size(model%sliders)
+      if (model%sliders(i)%pin%line > 0) holds = holds .or. same_word(model%sliders(i)%pin%text, &
+        name)
+    end do
+    do i = 1, size(model%springs)
+      do k = 1, 2
+        if (model%springs(i)%ends(k)%line > 0) holds = holds .or. &
+          same_word(model%springs(i)%ends(k)%text, name)
+      end do
+    end do
+  end function holds_part
 
   !> Looks up the links of a weld.
   pure subroutine find_weld(diagnostics, model, links, pins, weld)
@@ -127,7 +153,7 @@ contains
 
     if (size(weld%links) == 0) return
     call seek_pin(weld%pin, pins, links, diagnostics, known)
-    call find_links(diagnostics, model, links, weld, known)
+    call find_links(diagnostics, model, links, "is welded to itself", weld, known)
     if (.not. known .or. any(weld%link == 0)) return
     call require_drawn(diagnostics, model, weld, "the angle between welded links is")
   end subroutine find_weld
@@ -156,17 +182,41 @@ contains
       if (size(clamp%link) == 0) call add_error(diagnostics, clamp%pin, "no link is at pin '"// &
         clamp%pin%text//"': nothing is clamped there")
     else
-      call find_links(diagnostics, model, links, clamp, known)
+      call find_links(diagnostics, model, links, "is clamped twice", clamp, known)
     end if
     if (.not. known .or. any(clamp%link == 0)) return
     call require_drawn(diagnostics, model, clamp, "the angle of a clamped link is")
   end subroutine find_clamp
 
+  !> Refuses a link that two cards clamp at a pin.
+  pure subroutine refuse_same_clamps(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i, k, m
+
+    do i = 2, size(model%clamps)
+      others: do k = 1, i - 1
+        if (.not. same_word(model%clamps(i)%pin%text, model%clamps(k)%pin%text)) cycle
+        do m = 1, size(model%clamps(i)%link)
+          if (model%clamps(i)%link(m) == 0) cycle
+          if (.not. any(model%clamps(k)%link == model%clamps(i)%link(m))) cycle
+          call add_error(diagnostics, model%clamps(i)%pin, "link '"// &
+            model%links(model%clamps(i)%link(m))%name%text//"' is clamped at '"// &
+            model%clamps(i)%pin%text//"' already; expected the names of other links, or no "// &
+            "second card", model%clamps(k)%pin, "by this card")
+          exit others
+        end do
+      end do others
+    end do
+  end subroutine refuse_same_clamps
+
   !> Looks up the links that a weld or a clamp names. `known` is whether they can be told.
-  pure subroutine find_links(diagnostics, model, links, weld, known)
+  pure subroutine find_links(diagnostics, model, links, twice, weld, known)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: links
+    character(len=*), intent(in) :: twice !! what is said of a link that is named twice
     type(weld_t), intent(inout) :: weld
     logical, intent(inout) :: known !! whether the pin is
 
@@ -184,7 +234,7 @@ contains
         end if
         do k = 1, i - 1
           if (weld%link(k) /= weld%link(i)) cycle
-          call add_error(diagnostics, word, "link '"//word%text//"' is welded to itself", &
+          call add_error(diagnostics, word, "link '"//word%text//"' "//twice, &
             weld%links(k), "first named here")
           exit
         end do

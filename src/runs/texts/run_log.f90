@@ -89,7 +89,7 @@ contains
     if (has_law(model)) then
       text = text//plural(size(model%time%value), "instant")//" of law "// &
         model%drives(1)%law%text//line_feed
-    else
+    else if (.not. model%is_structure) then
       text = text//plural(size(model%crank%value), "crank angle")//", "// &
         plural(size(model%speed%value), "speed")//line_feed
     end if
