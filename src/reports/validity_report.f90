@@ -31,8 +31,10 @@ contains
       "vibrations out of the plane of motion; -: not estimated")
     call append_string(notes, "distance: least |1 - rho| of the multipliers rho of a turn of "// &
       "the "//to_string(variant%model%modes)//" slowest vibrations (MODES), of two real ones "// &
-      "the greater, 0 at resonance; error: the largest estimated relative error of the values "// &
-      "of the row")
+      "the greater, 0 at resonance; -: more vibrations a turn than samples resolve, or they "// &
+      "grow too much (REPORT stability gives the reason)")
+    call append_string(notes, "error: the largest estimated relative error of the values of "// &
+      "the row")
     call append_response_notes(notes, variant)
   end subroutine validity_notes
 

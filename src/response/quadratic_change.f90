@@ -19,10 +19,7 @@ module quadratic_change
   implicit none (type, external)
   private
 
-  public :: find_quadratic_change, find_unbalanced_forces, change_tolerance
-
-  !> Remainder of the iterations.
-  real(wp), parameter :: change_tolerance = 1.0e-9_wp
+  public :: find_quadratic_change, find_unbalanced_forces
 
 contains
 
@@ -32,7 +29,7 @@ contains
   !! Without a result: deformed so much, the linkage cannot be closed, or the iterations do not
   !! converge.
   subroutine find_quadratic_change(linkage, grid, plan, basis, motion, request, &
-    speed, damping, y, change)
+    speed, damping, y, tolerance, strain, step, change)
     type(linkage_t), intent(in) :: linkage          !! of the grid
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan        !! for its samples
@@ -42,29 +39,32 @@ contains
     real(wp), intent(in) :: speed                   !! ω2 [rad/s]
     real(wp), intent(in) :: damping(:)              !! (unknowns) c [s]
     real(wp), intent(in) :: y(:, :)                 !! (samples, unknowns) the response [√J]
+    real(wp), intent(in) :: tolerance               !! remainder of the iterations
+    real(wp), intent(in) :: strain(:)               !! (bodies) the largest of the response
+    real(wp), allocatable, intent(inout) :: step(:, :) !! (samples, unknowns) the change of y, found
+                                                    !! from a start if it is allocated
     real(wp), allocatable, intent(out) :: change(:) !! (bodies) zero for rigid links; unallocated:
                                                     !! none is found
 
     type(error_t), allocatable :: error
-    type(speed_response_t) :: of_step, of_all
-    real(wp), allocatable :: load(:, :), step(:, :)
+    type(speed_response_t) :: of_step
+    real(wp), allocatable :: load(:, :)
     real(wp) :: remainder
     integer :: b, applications
 
-    allocate (load, step, mold=y)
+    allocate (load, mold=y)
     call find_unbalanced_forces(linkage, grid, plan, speed, y, load, error)
     if (allocated(error) .or. .not. all(abs(load) < huge(1.0_wp))) return
-    step = 0.0_wp
+    if (.not. allocated(step)) allocate (step(size(y, 1), size(y, 2)), source=0.0_wp)
     call solve_periodic(grid, plan, basis, motion, speed, damping, request%terms, &
-      load, change_tolerance, step, applications, remainder, error)
+      load, tolerance, step, applications, remainder, error)
     if (allocated(error)) return
     allocate (change(size(linkage%bodies)))
     change = 0.0_wp
-    call find_peaks(grid, plan, request, step, of_step)
-    call find_peaks(grid, plan, request, y, of_all)
+    call find_peaks(grid, plan, request, step, of_step, only_strains=.true.)
     do b = 1, size(change)
       if (linkage%bodies(b)%bends) change(b) = of_step%largest_strain(b)%value/ &
-        max(of_all%largest_strain(b)%value, tiny(1.0_wp))
+        max(strain(b), tiny(1.0_wp))
     end do
   end subroutine find_quadratic_change
 

@@ -97,13 +97,14 @@ contains
 
   !> Finds the largest values of all links; zeros of rigid ones. What changes over the turn by no
   !! more than iterations and rounding left is a constant, which has no crank angle.
-  subroutine find_peaks(grid, plan, request, y, found, last_change)
+  subroutine find_peaks(grid, plan, request, y, found, last_change, only_strains)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan       !! for its samples
     type(response_request_t), intent(in) :: request !! sections
     real(wp), intent(in) :: y(:, :)                !! (samples, unknowns) [√J]
     type(speed_response_t), intent(inout) :: found !! its largest strains, stresses, deflections
     real(wp), intent(in), optional :: last_change(:, :) !! of y by the iterations; absent: 0
+    logical, intent(in), optional :: only_strains  !! no deflections; absent: false
 
     type(fourier_plan_t) :: dense
     real(wp), allocatable :: values(:, :), xi(:), coefficients(:, :), elongation(:, :), q(:, :), &
@@ -136,6 +137,20 @@ contains
           strained_functions(grid, b, last_change), elongation_of(grid, b, last_change), &
           quick_places(i)), i=1, size(quick_places))]))
         call search(.true., found%largest_strain(b))
+        call place_on_link(found%largest_strain(b))
+        found%largest_stress(b) = found%largest_strain(b)
+        found%largest_stress(b)%value = request%section(b)%modulus*found%largest_strain(b)%value
+        if (.not. present(only_strains)) call look_at_deflections
+        deallocate (values, coefficients, elongation, q, stretched)
+      end associate
+    end do
+    call close_fourier(dense)
+
+  contains
+
+    !> The largest deflection of a link.
+    subroutine look_at_deflections
+      associate (link => grid%model%links(b))
         if (moves(grid, b)) then
           call coefficients_of(plan, functions_of(grid, b, y), coefficients)
           call values_of(dense, resampled(coefficients, dense%samples), q)
@@ -150,16 +165,9 @@ contains
         end associate
         call search(.false., found%largest_deflection(b))
         found%largest_deflection(b)%value = sqrt(found%largest_deflection(b)%value)
-        call place_on_link(found%largest_strain(b))
         call place_on_link(found%largest_deflection(b))
-        found%largest_stress(b) = found%largest_strain(b)
-        found%largest_stress(b)%value = request%section(b)%modulus*found%largest_strain(b)%value
-        deallocate (values, coefficients, elongation, q, stretched)
       end associate
-    end do
-    call close_fourier(dense)
-
-  contains
+    end subroutine look_at_deflections
 
     !> The share of the way along a link or, with a block on it, along both of its pieces.
     subroutine place_on_link(peak)

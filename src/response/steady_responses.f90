@@ -22,7 +22,7 @@ module steady_responses
   use order_transfer, only: transferred
   use out_of_plane, only: find_out_of_plane_frequency
   use periodic_solver, only: solve_periodic
-  use quadratic_change, only: change_tolerance, find_quadratic_change
+  use quadratic_change, only: find_quadratic_change
   use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
     sample_numbers
   use response_peaks, only: find_peaks, sampled_deflections
@@ -127,6 +127,9 @@ module steady_responses
 
   !> Rounding of a solution, with no resonance near.
   real(wp), parameter :: rounding = 3.0e-13_wp
+
+  !> Remainder of the iterations for quadratic terms beside the accuracy, and the least.
+  real(wp), parameter :: change_share = 1.0e-2_wp, least_change = 1.0e-9_wp
 
   !> Orders and samples of a speed, and its levels.
   type :: choice_t
@@ -407,24 +410,30 @@ contains
 
     !> Quadratic terms on both levels.
     subroutine find_changes
-      real(wp), allocatable :: other(:)
+      real(wp), allocatable :: other(:), step(:, :), above_step(:, :)
+      real(wp) :: tolerance
 
+      tolerance = max(change_share*request%accuracy, least_change)
       call find_quadratic_change(structure%linkage, level%grid, plan, level%basis(choice%slow), &
         motion, request, speed, damping_of(request%damping, level%grid), solution%y, &
-        found%quadratic_change)
+        tolerance, found%largest_strain%value, step, found%quadratic_change)
+      if (.not. allocated(found%quadratic_change)) return
+      call transferred(level%grid, plan, above%grid, above_plan, step, above_step)
       call find_quadratic_change(structure%linkage, above%grid, above_plan, &
         above%basis(choice%slow), above_motion, request, speed, damping_of(request%damping, &
-        above%grid), better%y, other)
-      if (allocated(found%quadratic_change) .and. allocated(other)) then
-        found%quadratic_error = many*change_tolerance*found%quadratic_change + &
+        above%grid), better%y, tolerance, found%largest_strain%value, &
+        above_step, other)
+      if (allocated(other)) then
+        found%quadratic_error = many*tolerance*found%quadratic_change + &
           safety*abs(found%quadratic_change - other)
         ! A change that is nothing but rounding is none: its error is a share of the strain.
         where (found%quadratic_change <= found%quadratic_error)
           found%quadratic_change = 0.0_wp
         elsewhere
-          found%quadratic_error = found%quadratic_error/found%quadratic_change
+          ! That of the strain, to which the change is relative, too.
+          found%quadratic_error = found%quadratic_error/found%quadratic_change + found%peak_error
         end where
-      else if (allocated(found%quadratic_change)) then
+      else
         deallocate (found%quadratic_change)
       end if
     end subroutine find_changes

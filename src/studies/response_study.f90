@@ -1,13 +1,12 @@
 !> The steady elastic response at all speeds of a deck.
 module response_study
-  use constants, only: two_pi
   use errors, only: error_of_reach, error_t, set_error
   use kinds, only: wp
   use link_store, only: link_store_t
+  use modal_distances, only: find_modal_distances, modal_distance_t
   use part_requests, only: dampings_of_parts, join_parts, request_of_parts
   use response_types, only: response_request_t, response_t, speed_response_t
-  use stability, only: find_stability
-  use stability_types, only: exponent_t, stability_request_t, stability_t
+  use stability_types, only: stability_request_t
   use steady_responses, only: find_steady_responses
   use steady_turns, only: has_steady_turn
   use structures, only: structure_t
@@ -50,8 +49,7 @@ contains
     end do
   end subroutine find_response
 
-  !> Adds how near the speeds are to resonance: the least `|1 − ρ|` of the multipliers of the
-  !! slowest vibrations, of two real ones the greater. Those of all lie dense on the unit circle.
+  !> Adds how near the speeds are to resonance.
   subroutine add_distances(structure, request, threads, store, response)
     class(structure_t), intent(in) :: structure
     type(response_request_t), intent(in) :: request
@@ -62,7 +60,7 @@ contains
     !> Multipliers are no more accurate than this.
     real(wp), parameter :: finest = 1.0e-9_wp
     type(stability_request_t) :: vibrations
-    type(stability_t) :: found
+    type(modal_distance_t), allocatable :: found(:)
     type(error_t), allocatable :: error
     integer, allocatable :: at(:)
     integer :: k
@@ -77,32 +75,14 @@ contains
     vibrations%damping = request%damping
     if (allocated(structure%elastic)) vibrations%damping = dampings_of_parts(structure%elastic, &
       request%damping)
-    call find_stability(structure, vibrations, threads, store, found, error)
+    call find_modal_distances(structure, vibrations, threads, store, found, error)
     if (allocated(error)) return
     do k = 1, size(at)
-      associate (multipliers => found%at_speed(k), here => response%at_speed(at(k)))
-        if (allocated(multipliers%error)) cycle
-        call take_least(multipliers%exponent, here)
-      end associate
+      if (allocated(found(k)%why)) cycle
+      response%at_speed(at(k))%modal_distance = found(k)%value
+      response%at_speed(at(k))%modal_distance_error = found(k)%error
     end do
   end subroutine add_distances
-
-  !> The least distance of multipliers from 1, and how far errors may move it.
-  pure subroutine take_least(exponent, found)
-    type(exponent_t), intent(in) :: exponent(:)
-    type(speed_response_t), intent(inout) :: found
-
-    real(wp), dimension(size(exponent)) :: distance, error
-    complex(wp) :: multiplier(size(exponent))
-
-    if (size(exponent) == 0) return
-    multiplier = exp(cmplx(exponent%growth, two_pi*exponent%turns, wp))
-    distance = abs(1.0_wp - multiplier)
-    error = sqrt(2.0_wp)*abs(multiplier)*exponent%error + 4.0_wp*epsilon(1.0_wp)
-    found%modal_distance = minval(distance)
-    found%modal_distance_error = max(minval(distance + error) - found%modal_distance, &
-      found%modal_distance - minval(distance - error))/max(found%modal_distance, tiny(1.0_wp))
-  end subroutine take_least
 
   !> The largest deflection of a link relative to its length, at any speed.
   pure subroutine largest_deflection(response, length, share, body, speed)

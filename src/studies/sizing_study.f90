@@ -29,6 +29,9 @@ module sizing_study
   !! is round-off and written as 0.
   real(wp), parameter :: round_off_share = 1.0e-12_wp
 
+  !> Changes that fall by more than this with twice as many samples are those of a smooth force.
+  real(wp), parameter :: of_smooth = 1.0e-3_wp
+
   !> A joint whose rate is below this share of that of the linkage is at rest: it is round-off.
   real(wp), parameter :: rest = 1.0e-12_wp
 
@@ -66,6 +69,8 @@ module sizing_study
     real(wp) :: turned_error = 0.0_wp !! of it, estimated, as a share of the peak [-]
     real(wp) :: error = 0.0_wp  !! of peak and other means, estimated, as a share of the peak [-]
     real(wp) :: angle_error = 0.0_wp !! of the angle, estimated [deg]
+    real(wp) :: change(2) = 1.0_wp   !! of what `error` and `turned_error` are about, from half as
+                                     !! many samples, as shares of the peak [-]
   end type sized_t
 
   !> At one speed.
@@ -472,17 +477,32 @@ contains
     do k = 1, size(now)
       do s = 1, size(now(k)%sized)
         associate (a => now(k)%sized(s), b => last(k)%sized(s))
-          a%error = max(abs(abs(a%peak) - abs(b%peak)), abs(a%rms - b%rms), abs(a%mean - b%mean), &
-            abs(a%cubic - b%cubic))/max(abs(a%peak), tiny(1.0_wp))
-          a%turned_error = abs(a%turned_cubic - b%turned_cubic)/max(abs(a%peak), tiny(1.0_wp))
+          a%change = [max(abs(abs(a%peak) - abs(b%peak)), abs(a%rms - b%rms), abs(a%mean - &
+            b%mean), abs(a%cubic - b%cubic)), abs(a%turned_cubic - b%turned_cubic)]/max(abs(a%peak), &
+            tiny(1.0_wp))
+          a%error = error_of(a%change(1), b%change(1), b%error)
+          a%turned_error = error_of(a%change(2), b%change(2), b%turned_error)
           a%angle_error = max(a%angle_error, between_angles(a%angle, b%angle))
-          change = max(change, a%error)
+          change = max(change, a%change(1))
         end associate
       end do
       if (.not. now(k)%has_flywheel) cycle
       call compare_flywheels(now(k), last(k), change)
     end do
   end function largest_change
+
+  !> The error of a mean from its change by twice as many samples. Means of a smooth force converge
+  !! exponentially. With kinks, where friction changes its sense or a force passes zero, errors fall
+  !! with the square of the distance of samples and by where the kinks lie between them, and a
+  !! change may be small by chance: then they count that were before.
+  elemental function error_of(change, last_change, last_error) result(error)
+    real(wp), intent(in) :: change, last_change, last_error
+    real(wp) :: error
+
+    error = change
+    if (change > max(of_smooth*last_change, last_change**1.5_wp) .and. max(change, last_change) > &
+      settled) error = max(change, 0.25_wp*last_error)
+  end function error_of
 
   !> Errors of a flywheel: from half as many samples, and from those between. The latter miss the
   !! extremes, and the mean of 1/ω, by the opposite of what the former do, so that the errors of

@@ -63,6 +63,14 @@ for name in ("back", "finer", "turned"):
 END_OF_PYTHON
 }
 
+# Vibrations of which nothing is left after a turn: the multipliers are 0, and are found at once.
+faded() {
+  deck 20 1e-6 254 0 | sed 's/^SPEED.*/&\nDAMPING * time=3e-3/' >"$scratch/faded.deck"
+  timeout 20 "$program" --quiet --out "$out" "$scratch/faded.deck" || return 1
+  awk '!/^#/ && NF { rows++; if ($7 != "-" && ($7 - 1)^2 < 1e-18 && $8 < 1e-6) right++ } END { exit !(rows == 3 && right == 3) }' \
+    "$out/faded/validity.dat" || { cat "$out/faded/validity.dat"; return 1; }
+}
+
 # A column on a shaft that turns slowly, with a force across and one along it: H/P (tan kL/k - L), k^2 = P/EI, by second-order
 # theory; its tip turns by H/P (1/cos kL - 1).
 column() {
@@ -139,5 +147,6 @@ END_OF_DECK
 
 check "the response of an arm that turns alone is constant, and its tables say so" constant
 check "validity stands backwards, turned and at a finer accuracy" reversed_and_finer
+check "vibrations that fade within a turn are as far from resonance as can be" faded
 check "a column bends as by second-order theory" column
 check "the slider-crank of Simeon moves as published" simeon

@@ -50,7 +50,7 @@ REAL = re.compile(r"-?\d\.\d+E[-+]\d{3}$")
 PLACE = re.compile(r"(?P<deck>.*?):(?P<line>\d+):(?P<column>\d+): (?:error|warning|note): .")
 # Columns of words; and `branch`, but for branches.dat.
 WORDS = {"link", "event", "point", "gauge", "linkage", "quantity", "kind", "modes", "verdict", "pin", "drive", "part", "unit"}
-GAPS = {"quadratic", "out_of_plane"}  # of validity.dat: - where nothing is estimated
+GAPS = {"quadratic", "out_of_plane", "distance"}  # of validity.dat: - where nothing is estimated
 OTHERS = {"echo.deck", "run.log", "summary.json"}
 # What a deck may include.
 PART = b"MATERIAL brass E=100e9Pa density=8500kg/m3 nu=0.35\nSET half 0.5\n"

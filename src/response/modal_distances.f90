@@ -1,0 +1,308 @@
+!> How near a speed is to resonance: the least `|1 − ρ|` of the multipliers ρ of a turn of the
+!! slowest vibrations, of two real ones the greater. Those of all vibrations lie dense on the unit
+!! circle.
+!!
+!! The slow motion gives all of them about; those that may be the nearest are found from the whole
+!! equation, twice, with other orders and with samples that are no multiple. The second is the
+!! result, the difference its error.
+module modal_distances
+  use constants, only: two_pi
+  use errors, only: error_of_numerics, error_t, set_error
+  use floquet_exponents, only: find_floquet_modes, floquet_mode_t
+  use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
+  use interruption, only: was_interrupted
+  use kinds, only: long, wp
+  use link_store, only: link_store_t
+  use mode_numbers, only: growing_mode, most_spread, numbers_of
+  use order_transfer, only: transferred_halves
+  use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
+    sample_numbers
+  use slow_motions, only: add_shape_frequencies, new_slow_motion, slow_modes
+  use stability, only: first_order, first_samples, turn_spectrum_t
+  use stability_types, only: stability_request_t
+  use structures, only: structure_t
+  use text, only: to_string
+  use turn_grids, only: turn_grid_t
+  implicit none (type, external)
+  private
+
+  public :: modal_distance_t, find_modal_distances
+
+  !> Orders of the second solution above those of the first; its samples are half as many more.
+  integer, parameter :: orders_above = 2
+
+  !> Slow coordinates beside those of the modes wanted, and stages of the collocation of motions.
+  integer, parameter :: slow_above = 3, stages = 3
+
+  !> Multipliers of the slow motion are right to this share of themselves, 2π times what exponents
+  !! may be off; where the whole equation leads farther away it leads elsewhere.
+  real(wp), parameter :: about = 0.02_wp*two_pi
+
+  !> The exponent changes by no more than this share of the accuracy in the last round, and cannot
+  !! by less than the least. The error is to hold many such changes.
+  real(wp), parameter :: solved_to(2) = [1.0e-1_wp, 3.0e-2_wp], least_change = 1.0e-13_wp, many = &
+    10.0_wp
+
+  !> The difference of both solutions counts so many times; no error is stated smaller than this
+  !! share of the accuracy: two solutions may agree by chance.
+  real(wp), parameter :: safety = 3.0_wp, least_share = 1.0e-2_wp
+
+  !> Largest order, and most times that order and samples are raised.
+  integer, parameter :: most_order = 26, most_rounds = 6
+
+  !> They are not raised any more when so much work is done at a speed: samples × unknowns ×
+  !! applications of the equation.
+  integer(long), parameter :: most_work = 10000000_long
+
+  !> At one speed.
+  type :: modal_distance_t
+    real(wp) :: value = 0.0_wp          !! least |1 − ρ|
+    real(wp) :: error = huge(1.0_wp)    !! relative
+    type(error_t), allocatable :: why   !! there is none
+  end type modal_distance_t
+
+  !> Orders and samples of a speed.
+  type :: choice_t
+    integer :: order = 0
+    integer :: at = 0        !! of `sample_numbers`
+    integer :: level(2) = 0  !! numbers of the levels of both solutions
+    integer :: round = 0     !! times raised
+    integer(long) :: work = 0_long
+    logical :: pending = .true.
+  end type choice_t
+
+contains
+
+  !> Finds the distances at all speeds.
+  !!
+  !! Errors: the crank does not turn fully; own modes of a link could not be found. Those of a speed
+  !! are in its result.
+  subroutine find_modal_distances(structure, request, threads, store, found, error)
+    class(structure_t), intent(in) :: structure      !! linkage and beams
+    type(stability_request_t), intent(in) :: request !! speeds, modes, accuracy
+    integer, intent(in) :: threads                   !! number of OpenMP threads
+    type(link_store_t), intent(inout) :: store       !! links decomposed earlier
+    type(modal_distance_t), allocatable, intent(out) :: found(:) !! (speeds)
+    type(error_t), allocatable, intent(out) :: error !! why there is nothing at any speed
+
+    type(level_slot_t), allocatable :: levels(:)
+    type(choice_t) :: choice(size(request%speed))
+    integer, allocatable :: pending(:)
+    integer :: first, i, k, order
+
+    allocate (found(size(request%speed)), levels(0))
+    order = first_order(request%accuracy)
+    call need_level(structure, order, sample_numbers(1), .false., store, levels, first, error)
+    if (allocated(error)) return
+    do k = 1, size(choice)
+      choice(k)%order = order
+      choice(k)%at = first_samples(levels(first)%level%grid, request%modes, request%speed(k), &
+        request%accuracy)
+      if (choice(k)%at > 0) cycle
+      choice(k)%pending = .false.
+      call set_error(found(k)%why, error_of_numerics, "the crank turns too slowly: more "// &
+        "vibrations a turn than "//to_string(sample_numbers(size(sample_numbers)))// &
+        " samples resolve")
+    end do
+    do
+      pending = pack([(k, k=1, size(choice))], choice%pending)
+      if (size(pending) == 0) exit
+      do i = 1, size(pending)
+        call find_levels(structure, request, request%speed(pending(i)), store, levels, &
+          choice(pending(i)), error)
+        if (allocated(error)) return
+      end do
+      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
+      do i = 1, size(pending)
+        ! An interrupted run leaves no results.
+        choice(pending(i))%pending = .not. was_interrupted()
+        if (.not. choice(pending(i))%pending) cycle
+        associate (here => choice(pending(i)))
+          call solve_speed(request, abs(request%speed(pending(i))), levels(here%level(1))%level, &
+            levels(here%level(2))%level, here, found(pending(i)))
+        end associate
+      end do
+      !$omp end parallel do
+    end do
+  end subroutine find_modal_distances
+
+  !> Finds or makes the two levels of a speed, with their slow coordinates.
+  subroutine find_levels(structure, request, speed, store, levels, choice, error)
+    class(structure_t), intent(in) :: structure
+    type(stability_request_t), intent(in) :: request
+    real(wp), intent(in) :: speed
+    type(link_store_t), intent(inout) :: store
+    type(level_slot_t), allocatable, intent(inout) :: levels(:)
+    type(choice_t), intent(inout) :: choice
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: i
+
+    do i = 1, 2
+      call need_level(structure, choice%order + (i - 1)*orders_above, (i + 1)* &
+        sample_numbers(choice%at)/2, speed < 0.0_wp, store, levels, choice%level(i), error)
+      if (allocated(error)) return
+      associate (level => levels(choice%level(i))%level)
+        call need_basis(slow_number(level%grid, request%modes), request%damping, level, error, &
+          .true.)
+      end associate
+      if (allocated(error)) return
+    end do
+  end subroutine find_levels
+
+  !> Solves one speed on both levels; raises order and samples if that is not good enough.
+  subroutine solve_speed(request, speed, level, above, choice, found)
+    type(stability_request_t), intent(in) :: request
+    real(wp), intent(in) :: speed
+    type(level_t), intent(in) :: level, above
+    type(choice_t), intent(inout) :: choice
+    type(modal_distance_t), intent(inout) :: found
+
+    type(fourier_plan_t) :: plan, above_plan
+    type(turn_spectrum_t) :: spectrum, above_spectrum
+    type(modal_distance_t) :: here
+    complex(wp), allocatable :: multiplier(:)
+    real(wp), allocatable :: error(:)
+    integer, allocatable :: wanted(:), near(:)
+    integer :: i
+
+    choice%pending = .false.
+    call open_fourier(level%grid%samples, plan)
+    call open_fourier(above%grid%samples, above_plan)
+    attempt: block
+      call find_spectrum(level, plan, slow_number(level%grid, request%modes), speed, spectrum, &
+        here%why)
+      if (allocated(here%why)) exit attempt
+      call find_spectrum(above, above_plan, slow_number(above%grid, request%modes), speed, &
+        above_spectrum, here%why)
+      if (allocated(here%why)) exit attempt
+      wanted = [(growing_mode(above_spectrum%mode, above_spectrum%number, i), i=1, &
+        min(request%modes, maxval(above_spectrum%number)))]
+      multiplier = exp(two_pi*above_spectrum%mode(wanted)%exponent)
+      error = about*abs(multiplier)
+      ! Those of vibrations that fade within the rounding of others are nothing beside them.
+      if (size(wanted) < min(request%modes, size(above_spectrum%mode))) then
+        error = [error, exp(-most_spread)*maxval(abs(multiplier))]
+        multiplier = [multiplier, (0.0_wp, 0.0_wp)]
+      end if
+      near = pack([(i, i=1, size(wanted))], abs(1.0_wp - multiplier(:size(wanted))) - &
+        error(:size(wanted)) <= minval(abs(1.0_wp - multiplier) + error) .and. &
+        error(:size(wanted)) > least_share*request%accuracy)
+      call refine
+      call take_least(multiplier, error, here)
+    end block attempt
+    call close_fourier(above_plan)
+    call close_fourier(plan)
+    call settle
+
+  contains
+
+    !> The multipliers that may be the nearest, from the whole equation.
+    subroutine refine
+      type(floquet_mode_t) :: modes(size(near)), better(size(near)), known(size(near))
+      integer :: mine(size(near)), i
+      real(wp) :: share, tolerance(2)
+
+      if (size(near) == 0) return
+      do i = 1, size(near)
+        mine(i) = minloc(abs(spectrum%mode%exponent - &
+          above_spectrum%mode(wanted(near(i)))%exponent), dim=1)
+      end do
+      ! As accurate as the distance asks for.
+      share = minval(abs(1.0_wp - multiplier(near)) + error(near))/maxval(abs(multiplier(near)))
+      tolerance = max(solved_to*min(share, 1.0_wp)*request%accuracy/two_pi, least_change)
+      call find_floquet_modes(level%grid, plan, level%basis(spectrum%motion%number), &
+        spectrum%motion, speed, damping_of(request%damping, level%grid), request%terms, &
+        tolerance(1), spectrum%mode, mine, modes)
+      known = modes
+      do i = 1, size(near)
+        call transferred_halves(level%grid, plan, above%grid, above_plan, modes(i)%motion, &
+          known(i)%motion)
+      end do
+      call find_floquet_modes(above%grid, above_plan, above%basis(above_spectrum%motion%number), &
+        above_spectrum%motion, speed, damping_of(request%damping, above%grid), request%terms, &
+        tolerance(2), above_spectrum%mode, wanted(near), better, known)
+      do i = 1, size(near)
+        associate (slow => above_spectrum%mode(wanted(near(i)))%exponent)
+          choice%work = choice%work + int(modes(i)%applications, long)*level%grid%samples* &
+            level%grid%unknowns + int(better(i)%applications, long)*above%grid%samples* &
+            above%grid%unknowns
+          ! Iterations that lead elsewhere say nothing.
+          if (two_pi*apart_from(better(i)%exponent, slow) > about .or. max(modes(i)%change, &
+            better(i)%change) > about) cycle
+          multiplier(near(i)) = exp(two_pi*better(i)%exponent)
+          error(near(i)) = two_pi*abs(multiplier(near(i)))*(safety*apart_from(better(i)%exponent, &
+            modes(i)%exponent) + modes(i)%change + many*better(i)%change)
+        end associate
+      end do
+    end subroutine refine
+
+    !> Keeps the better result, and raises order and samples if it is not good enough.
+    subroutine settle
+      if (.not. allocated(here%why)) then
+        if (here%error < found%error) found = here
+      else if (found%error >= huge(1.0_wp)) then
+        found%why = here%why
+      end if
+      if (found%error <= request%accuracy) return
+      choice%round = choice%round + 1
+      choice%pending = choice%round <= most_rounds .and. choice%work < most_work .and. &
+        choice%at < size(sample_numbers) .and. choice%order < most_order
+      choice%at = choice%at + 1
+      choice%order = choice%order + orders_above
+    end subroutine settle
+
+    !> The least distance of multipliers from 1, and how far errors may move it.
+    pure subroutine take_least(multiplier, error, found)
+      complex(wp), intent(in) :: multiplier(:)
+      real(wp), intent(in) :: error(:)
+      type(modal_distance_t), intent(inout) :: found
+
+      real(wp), dimension(size(error)) :: distance, off
+
+      distance = abs(1.0_wp - multiplier)
+      off = error + least_share*request%accuracy*distance + 4.0_wp*epsilon(1.0_wp)
+      found%value = minval(distance)
+      found%error = max(minval(distance + off) - found%value, found%value - minval(distance - &
+        off))/max(found%value, tiny(1.0_wp))
+    end subroutine take_least
+
+  end subroutine solve_speed
+
+  !> Slow coordinates for so many modes.
+  pure function slow_number(grid, modes) result(number)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: modes
+    integer :: number
+
+    number = min(grid%unknowns, modes + slow_above)
+  end function slow_number
+
+  !> Free motions of the slow coordinates of a level, with their numbers.
+  !!
+  !! Errors: they grow too much in a turn; their multipliers do not converge.
+  subroutine find_spectrum(level, plan, slow, speed, spectrum, error)
+    type(level_t), intent(in) :: level               !! with this many slow coordinates
+    type(fourier_plan_t), intent(in) :: plan         !! for its samples
+    integer, intent(in) :: slow                      !! coordinates
+    real(wp), intent(in) :: speed                    !! |ω2| [rad/s]
+    type(turn_spectrum_t), intent(out) :: spectrum
+    type(error_t), allocatable, intent(out) :: error
+
+    call new_slow_motion(plan, level%basis(slow), speed, stages, spectrum%motion, error)
+    if (allocated(error)) return
+    call slow_modes(level%basis(slow), spectrum%motion, spectrum%mode, error)
+    if (allocated(error)) return
+    call add_shape_frequencies(level%basis(slow), spectrum%motion, speed, spectrum%mode)
+    spectrum%number = numbers_of(spectrum%mode)
+  end subroutine find_spectrum
+
+  !> Distance of an exponent from another or from its conjugate, which is of the same vibration.
+  elemental function apart_from(other, exponent) result(apart)
+    complex(wp), intent(in) :: other, exponent
+    real(wp) :: apart
+
+    apart = min(abs(other - exponent), abs(conjg(other) - exponent))
+  end function apart_from
+
+end module modal_distances
