@@ -39,6 +39,7 @@ FAMILIES = [
     ("rigid tables", "tests/linkages/rigid_tables.py 1 300 --program {program}"),
     ("estimates of responses", "tests/stress/estimates_response.py 1 300 --program {program}"),
     ("accuracies", "tests/stress/compare_accuracies.py {program} --frequencies 20000 --seed 1"),
+    ("reports together", "tests/stress/report_sets.py 1 150 --program build/debug/flexmech"),
     ("stress", "tests/stress/run_stress.py {program} --every 4 --no-figures"),
     ("stress of responses", "build/release/stress/responses 420 {threads} build/check-all/responses.dat 1"),
     ("stress of stability", "build/release/stress/stability 10 25 {threads} 1"),
