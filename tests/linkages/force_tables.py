@@ -71,8 +71,11 @@ class Place:
             return
         if pin in self.deck.points and (pin, self.deck.points[pin][0]) not in self.rows:
             self.add(("body", self.deck.points[pin][0]), self.where(pin), fx, fy)
-        else:
-            self.add(("pin", pin), self.where(pin), fx, fy)
+            return
+        # A pin of one link alone has no row: what acts on it acts on the link.
+        of_link = [name for name, card in self.deck.links.items() if pin in card["pins"]]
+        alone = len(of_link) == 1 and not any(row[0] == pin for row in self.rows)
+        self.add(("body", of_link[0]) if alone else ("pin", pin), self.where(pin), fx, fy)
 
     def joints(self):
         """Rows of reactions.dat: on links and pins, and the opposite on the ground."""
@@ -80,7 +83,8 @@ class Place:
         guides = self.model.guides
         self.rows = {key[2:]: row for key, row in self.tables["reactions"].items() if key[:2] == self.key}
         for (pin, link), row in self.rows.items():
-            fx, fy, m = row["fx"] * force, row["fy"] * force, row["moment"] * moment
+            # A four-bar has no column of couples: they are in friction.dat.
+            fx, fy, m = row["fx"] * force, row["fy"] * force, (row["moment"] or 0.0) * moment
             place = self.where(pin)
             if link in guides:
                 self.add(("pin", pin), place, fx, fy, m)
@@ -295,6 +299,8 @@ def of_input(program, path, folder):
                 linear = linear or (len(lines) > 0 and not any(line.startswith("DRIVE") for line in lines)
                                     and len([word for word in words[1:] if "=" not in word]) == 2)
             lines.append(" ".join(words))
+    if not any(line.startswith("DRIVE") for line in lines):
+        return None                                               # a structure
     if linear and speeds == ["SPEED 3 alpha=2"]:
         speeds = ["SPEED 0.02m/s"]
     return with_reports(lines + cranks + speeds + ["INERTIA distributed"])
