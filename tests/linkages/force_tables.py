@@ -24,6 +24,7 @@ from solver import Failure, Model, positions
 from tables import run
 
 ALLOWED = 1e-10
+NO_FORCE = 1e-9  # N: at rest on springs without weight all forces are rounding
 REPORTS = ("kinematics", "pins", "reactions", "drive", "bearings", "frame about=0,0", "friction")
 # Cards of other reports, and those that the copy of a deck has of its own.
 DROPPED = {"MESH", "MODES", "SOLVER", "GAUGE", "DAMPING", "BALANCE", "MOTOR", "EFFECTS", "REPORT", "END", "INERTIA", "TITLE", "LAW", "TIME",
@@ -71,11 +72,8 @@ class Place:
             return
         if pin in self.deck.points and (pin, self.deck.points[pin][0]) not in self.rows:
             self.add(("body", self.deck.points[pin][0]), self.where(pin), fx, fy)
-            return
-        # A pin of one link alone has no row: what acts on it acts on the link.
-        of_link = [name for name, card in self.deck.links.items() if pin in card["pins"]]
-        alone = len(of_link) == 1 and not any(row[0] == pin for row in self.rows)
-        self.add(("body", of_link[0]) if alone else ("pin", pin), self.where(pin), fx, fy)
+        else:
+            self.add(("pin", pin), self.where(pin), fx, fy)
 
     def joints(self):
         """Rows of reactions.dat: on links and pins, and the opposite on the ground."""
@@ -191,6 +189,8 @@ class Place:
         row = row_of(self.tables["frame"], self.key, "frame.dat")
         self.add(("ground",), (0.0, 0.0), -row["frame_x"] * self.units["force"], -row["frame_y"] * self.units["force"],
                  -row["frame_moment"] * self.units["torque"])
+        if self.force < NO_FORCE:
+            return 0.0
         moment = max(self.moment, self.force * self.model.size)
         largest, where = 0.0, ""
         for name, total in self.sums.items():

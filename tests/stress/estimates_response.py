@@ -38,6 +38,8 @@ def draw(seed):
         machine["rod"], machine["offset"] = machine["crank"] * rng.uniform(2.2, 4), machine["crank"] * rng.uniform(-0.3, 0.3)
     else:
         others = sorted(rng.uniform(0.15, 0.35) for _ in range(3))
+        while others[2] > 0.9 * (others[0] + others[1]):
+            others = sorted(rng.uniform(0.15, 0.35) for _ in range(3))
         while machine["crank"] + others[2] > 0.97 * (others[0] + others[1]) or machine["crank"] > 0.9 * others[0]:
             machine["crank"] *= 0.8
         rng.shuffle(others)
@@ -92,7 +94,7 @@ def run(program, folder, name, text):
         file.write(text)
     done = subprocess.run([program, "--quiet", "--out", folder, path], capture_output=True, text=True, timeout=300, check=False)
     if done.returncode != 0:
-        return None, done.stderr.strip().splitlines()[:1]
+        return None, [line for line in done.stderr.splitlines() if "error:" in line][:1]
     tables = {}
     for file_name in os.listdir(os.path.join(folder, name)):
         if file_name.endswith(".dat"):
