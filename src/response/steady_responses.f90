@@ -128,8 +128,13 @@ module steady_responses
   !> Rounding of a solution, with no resonance near.
   real(wp), parameter :: rounding = 3.0e-13_wp
 
-  !> Remainder of the iterations for quadratic terms beside the accuracy, and the least.
-  real(wp), parameter :: change_share = 1.0e-2_wp, least_change = 1.0e-9_wp
+  !> Remainder of the iterations for quadratic terms beside the accuracy, and the least. On the
+  !! second level, which starts from the first, it is smaller by this: else both lack the same.
+  real(wp), parameter :: change_share = 1.0e-3_wp, least_change = 1.0e-9_wp, compared_change = &
+    1.0e-2_wp
+
+  !> Changes of quadratic terms count at least this share of the largest of any link.
+  real(wp), parameter :: share_of_all = 0.1_wp
 
   !> Orders and samples of a speed, and its levels.
   type :: choice_t
@@ -411,7 +416,8 @@ contains
     !> Quadratic terms on both levels.
     subroutine find_changes
       real(wp), allocatable :: other(:), step(:, :), above_step(:, :)
-      real(wp) :: tolerance
+      real(wp) :: share, tolerance
+      integer :: b
 
       tolerance = max(change_share*request%accuracy, least_change)
       call find_quadratic_change(structure%linkage, level%grid, plan, level%basis(choice%slow), &
@@ -421,11 +427,18 @@ contains
       call transferred(level%grid, plan, above%grid, above_plan, step, above_step)
       call find_quadratic_change(structure%linkage, above%grid, above_plan, &
         above%basis(choice%slow), above_motion, request, speed, damping_of(request%damping, &
-        above%grid), better%y, tolerance, found%largest_strain%value, &
-        above_step, other)
+        above%grid), better%y, compared_change*tolerance, &
+        found%largest_strain%value, above_step, other)
       if (allocated(other)) then
-        found%quadratic_error = many*tolerance*found%quadratic_change + &
-          safety*abs(found%quadratic_change - other)
+        ! In one link both may agree by chance, in all they do not.
+        other = abs(found%quadratic_change - other)
+        share = 0.0_wp
+        do b = 1, size(other)
+          if (other(b) < found%quadratic_change(b)) share = max(share, share_of_all*other(b)/ &
+            found%quadratic_change(b))
+        end do
+        found%quadratic_error = many*tolerance*found%quadratic_change + safety*max(other, &
+          share*found%quadratic_change)
         ! A change that is nothing but rounding is none: its error is a share of the strain.
         where (found%quadratic_change <= found%quadratic_error)
           found%quadratic_change = 0.0_wp

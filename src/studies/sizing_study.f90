@@ -478,8 +478,8 @@ contains
       do s = 1, size(now(k)%sized)
         associate (a => now(k)%sized(s), b => last(k)%sized(s))
           a%change = [max(abs(abs(a%peak) - abs(b%peak)), abs(a%rms - b%rms), abs(a%mean - &
-            b%mean), abs(a%cubic - b%cubic)), abs(a%turned_cubic - b%turned_cubic)]/max(abs(a%peak), &
-            tiny(1.0_wp))
+            b%mean), abs(a%cubic - b%cubic)), abs(a%turned_cubic - b%turned_cubic)]/ &
+            max(abs(a%peak), tiny(1.0_wp))
           a%error = error_of(a%change(1), b%change(1), b%error)
           a%turned_error = error_of(a%change(2), b%change(2), b%turned_error)
           a%angle_error = max(a%angle_error, between_angles(a%angle, b%angle))

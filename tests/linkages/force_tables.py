@@ -24,6 +24,7 @@ from solver import Failure, Model, positions
 from tables import run
 
 ALLOWED = 1e-10
+NO_FORCE = 1e-9  # N: at rest on springs without weight all forces are rounding
 REPORTS = ("kinematics", "pins", "reactions", "drive", "bearings", "frame about=0,0", "friction")
 # Cards of other reports, and those that the copy of a deck has of its own.
 DROPPED = {"MESH", "MODES", "SOLVER", "GAUGE", "DAMPING", "BALANCE", "MOTOR", "EFFECTS", "REPORT", "END", "INERTIA", "TITLE", "LAW", "TIME",
@@ -80,7 +81,8 @@ class Place:
         guides = self.model.guides
         self.rows = {key[2:]: row for key, row in self.tables["reactions"].items() if key[:2] == self.key}
         for (pin, link), row in self.rows.items():
-            fx, fy, m = row["fx"] * force, row["fy"] * force, row["moment"] * moment
+            # A four-bar has no column of couples: they are in friction.dat.
+            fx, fy, m = row["fx"] * force, row["fy"] * force, (row["moment"] or 0.0) * moment
             place = self.where(pin)
             if link in guides:
                 self.add(("pin", pin), place, fx, fy, m)
@@ -187,6 +189,8 @@ class Place:
         row = row_of(self.tables["frame"], self.key, "frame.dat")
         self.add(("ground",), (0.0, 0.0), -row["frame_x"] * self.units["force"], -row["frame_y"] * self.units["force"],
                  -row["frame_moment"] * self.units["torque"])
+        if self.force < NO_FORCE:
+            return 0.0
         moment = max(self.moment, self.force * self.model.size)
         largest, where = 0.0, ""
         for name, total in self.sums.items():
@@ -295,6 +299,8 @@ def of_input(program, path, folder):
                 linear = linear or (len(lines) > 0 and not any(line.startswith("DRIVE") for line in lines)
                                     and len([word for word in words[1:] if "=" not in word]) == 2)
             lines.append(" ".join(words))
+    if not any(line.startswith("DRIVE") for line in lines):
+        return None                                               # a structure
     if linear and speeds == ["SPEED 3 alpha=2"]:
         speeds = ["SPEED 0.02m/s"]
     return with_reports(lines + cranks + speeds + ["INERTIA distributed"])

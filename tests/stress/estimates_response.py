@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Errors that the reports on the steady elastic response print, against the same machine described otherwise.
 
-    estimates_response.py SEED COUNT [--program PATH] [--scratch DIR] [--validity] [--all]
+    estimates_response.py SEED COUNT [--program PATH] [--scratch DIR] [--validity] [--all] [--seconds S]
 
 Random four-bars and slider-cranks, with and without damping, each at its accuracy against one finer by 1e4 that is also, in turn,
 as it is, turned, mirrored with the crank the other way round, in other units, or, undamped, backwards (time reversal); with --all
 against each of these at the same accuracy, too. A difference above the sum of both printed errors, each times the largest value of
 the quantity over the crank angles, is a violation. Rows that fail, or decks that are refused, are counted. --validity asks for that
-report only. The last lines have the distribution of true by estimated errors, and `N passed, N failed`.
+report only; after --seconds no case is begun. The last lines have the distribution of true by estimated errors, and `N passed, N failed`.
 """
 import argparse
 import collections
@@ -18,6 +18,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 FINER = 1e-4
 CRANK = tuple(range(0, 360, 5))
@@ -37,6 +38,8 @@ def draw(seed):
         machine["rod"], machine["offset"] = machine["crank"] * rng.uniform(2.2, 4), machine["crank"] * rng.uniform(-0.3, 0.3)
     else:
         others = sorted(rng.uniform(0.15, 0.35) for _ in range(3))
+        while others[2] > 0.9 * (others[0] + others[1]):
+            others = sorted(rng.uniform(0.15, 0.35) for _ in range(3))
         while machine["crank"] + others[2] > 0.97 * (others[0] + others[1]) or machine["crank"] > 0.9 * others[0]:
             machine["crank"] *= 0.8
         rng.shuffle(others)
@@ -91,7 +94,7 @@ def run(program, folder, name, text):
         file.write(text)
     done = subprocess.run([program, "--quiet", "--out", folder, path], capture_output=True, text=True, timeout=300, check=False)
     if done.returncode != 0:
-        return None, done.stderr.strip().splitlines()[:1]
+        return None, [line for line in done.stderr.splitlines() if "error:" in line][:1]
     tables = {}
     for file_name in os.listdir(os.path.join(folder, name)):
         if file_name.endswith(".dat"):
@@ -183,12 +186,16 @@ def main():
     parser.add_argument("--scratch")
     parser.add_argument("--validity", action="store_true")
     parser.add_argument("--all", action="store_true", help="all ways of showing a machine, at the same accuracy too")
+    parser.add_argument("--seconds", type=float, default=math.inf)
     options = parser.parse_args()
+    begun = time.time()
     folder = options.scratch or tempfile.mkdtemp()
     os.makedirs(folder, exist_ok=True)
     counts = collections.Counter()
     ratios = collections.defaultdict(list)
     for number in range(options.seed, options.seed + options.count):
+        if time.time() - begun > options.seconds:
+            break
         machine = draw(number)
         reports = ("validity",) if options.validity else REPORTS
         turned = random.Random(-number - 1).uniform(-170, 170)
