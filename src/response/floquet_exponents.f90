@@ -51,6 +51,20 @@ module floquet_exponents
   !> No exponent differs more than this from its first approximation.
   real(wp), parameter :: farthest = 0.02_wp
 
+  !> The last changes of an exponent that have to be small, of which one counts without damping: one
+  !! may be so by chance, where a correction of its motion was of no use.
+  integer, parameter :: changes_that_count = 2
+
+  !> Results that are better than those before by less than this are not kept.
+  real(wp), parameter :: better_by = 0.7_wp
+
+  !> With damping motions of the adjoint equation, whose damping is negative, differ from those of
+  !! the equation by this many times `c ω`.
+  real(wp), parameter :: adjoint_share = 2.0_wp
+
+  !> Part of the action of a mode that is left, at least, where multipliers have met.
+  real(wp), parameter :: least_sensitivity = 0.05_wp
+
   !> No smaller change of the square of a difference of exponents can be asked for.
   real(wp), parameter :: least_square_change = 1.0e-14_wp
 
@@ -74,7 +88,8 @@ module floquet_exponents
   type :: floquet_mode_t
     complex(wp) :: exponent = (0.0_wp, 0.0_wp)  !! σ, per radian of the crank; its imaginary part is
                                                 !! vibrations per turn, between 0 and 1/2
-    real(wp) :: change = 0.0_wp                 !! of the exponent in the last round
+    real(wp) :: change = 0.0_wp                 !! of the exponent in the last rounds, or the error
+                                                !! that its motion allows
     integer :: applications = 0                 !! of the equation, to complex motions
     real(wp) :: frequency = 0.0_wp              !! of its shape over the turn,
                                                 !! `√(∮ zᴴz / ∮ zᴴM z)` [rad/s]
@@ -272,7 +287,9 @@ contains
     complex(wp), allocatable :: values(:), vectors(:, :), weights(:), partner_weights(:)
     complex(wp) :: fixed, before, expected, followed, followed_partner, second
     complex(wp) :: square, square_before
-    real(wp) :: correction(grid%samples, 2*grid%unknowns)
+    real(wp), dimension(grid%samples, 2*grid%unknowns) :: correction, correction_of_partner
+    real(wp) :: changes(changes_that_count), error
+    complex(wp) :: here
     integer :: number, partner, round
     logical :: grew, is_damped
 
@@ -284,6 +301,7 @@ contains
     expected = mode%exponent
     if (present(known)) expected = known%exponent
     square = 0.0_wp
+    here = expected
     call start
     do round = 1, most_rounds
       if (space%is_harmonic) then
@@ -299,22 +317,33 @@ contains
       partner = number
       if (.not. is_damped .and. abs(real(followed)) > off_circle) &
         partner = minloc(abs(values + conjg(followed)), dim=1)
+      if (is_damped) partner = maxloc(abs(matmul(conjg(matmul(slope_of_form(followed), weights)), &
+        vectors)), dim=1, mask=abs(aimag(values - followed)) < together)
       if (present(pair)) partner = minloc(distance(values, vectors, second), dim=1, &
         mask=abs(values - values(number)) > as_good_as)
       if (partner == 0) return
       followed_partner = values(partner)
       partner_weights = vectors(:, partner)
-      before = mode%exponent
-      mode%exponent = followed
+      before = here
+      here = followed
       if (present(pair)) pair%exponent = [followed, followed_partner]
-      if (space%is_harmonic .and. .not. is_damped) call take_value_of_form
-      if (round > 1) mode%change = abs(mode%exponent - before)
+      if (space%is_harmonic .and. .not. (is_damped .and. present(pair))) call take_value_of_form
+      call correct(here, weights, correction)
+      changes = [changes(2:), abs(here - before)]
+      if (round == 1) changes = huge(1.0_wp)
+      error = max(maxval(changes(merge(1, 2, is_damped):)), doubt())
+      if (error < better_by*mode%change .or. error <= tolerance .or. present(pair) .or. &
+        round == 1) then
+        mode%exponent = here
+        mode%change = error
+        call describe(weights)
+      end if
       if (present(pair)) then
         square_before = square
         square = (pair%exponent(1) - pair%exponent(2))**2
         pair%change = abs(square - square_before)
         if (round > 1 .and. pair%change <= max(pair%tolerance, least_square_change)) exit
-      else if (mode%change <= tolerance) then
+      else if (error <= tolerance) then
         exit
       end if
       if (round == rounds_of_projection(merge(2, 1, is_damped))) then
@@ -324,14 +353,12 @@ contains
       if (space%number > most_vectors - 2) call gather(weights, partner_weights)
       grew = .false.
       if (partner /= number) then
-        call correct(values(partner), partner_weights)
-        call add_vector(correction, grew)
+        call correct(followed_partner, partner_weights, correction_of_partner)
+        call add_vector(correction_of_partner, grew)
       end if
-      call correct(mode%exponent, weights)
       call add_vector(correction, grew)
       if (.not. grew) exit
     end do
-    call describe(weights)
     if (present(pair)) call remember
 
   contains
@@ -422,7 +449,7 @@ contains
       call find_pencil_modes(small(:p, :p, :), fixed, roots, ignored)
       if (size(roots) == 0) return
       n = minloc(abs(roots - followed), dim=1)
-      mode%exponent = roots(n)
+      here = roots(n)
       if (.not. present(pair) .or. size(roots) == 1) return
       p = minloc(abs(roots - followed_partner), dim=1, mask=abs(roots - roots(n)) > as_good_as)
       if (p > 0) pair%exponent = roots([n, p])
@@ -537,6 +564,33 @@ contains
       end do
     end subroutine add_solved
 
+    !> How wrong the exponent may be by what its motion leaves in the equation: with w, the motion
+    !! of the adjoint equation, the error is `wᴴ L(σ) z/(wᴴ L'(σ) z)`, and only what w has outside
+    !! of the space counts. That is as much as the motion of the partner lacks, or with damping, of
+    !! which the space knows no adjoint motion, the share of that in w.
+    function doubt()
+      real(wp) :: doubt
+
+      real(wp) :: lacks, kinetic, sensitivity
+
+      kinetic = real(dot_product(weights, matmul(space%form(:space%number, :space%number, 2), &
+        weights)))
+      sensitivity = abs(dot_product(partner_weights, matmul(slope_of_form(here), &
+        weights)))/(2.0_wp*sqrt(max(kinetic, tiny(1.0_wp))))
+      lacks = norm2(correction)
+      doubt = lacks*max(lacks, min(1.0_wp, adjoint_share*slow(wanted)%frequency* &
+        maxval(damping(:grid%unknowns))))/max(sensitivity, least_sensitivity)
+    end function doubt
+
+    !> `vᴴL'(σ) v`.
+    pure function slope_of_form(exponent) result(slope)
+      complex(wp), intent(in) :: exponent
+      complex(wp) :: slope(space%number, space%number)
+
+      slope = space%form(:space%number, :space%number, 1) + 2.0_wp*exponent*space%form( &
+        :space%number, :space%number, 2)
+    end function slope_of_form
+
     !> Adds a vector to the space, unless it is in it.
     subroutine add_vector(new, added)
       real(wp), intent(in) :: new(:, :)
@@ -600,9 +654,10 @@ contains
     end subroutine approximate
 
     !> The correction of a vector of the space, from what it leaves in the equation.
-    subroutine correct(exponent, weights)
+    subroutine correct(exponent, weights, correction)
       complex(wp), intent(in) :: exponent
       complex(wp), intent(in) :: weights(:) !! of the vectors
+      real(wp), intent(out) :: correction(:, :)
 
       real(wp) :: residual(grid%samples, 2*grid%unknowns)
       integer :: i, p

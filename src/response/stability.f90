@@ -34,20 +34,22 @@ module stability
   public :: find_stability, turn_spectrum_t, find_spectrum, slow_number, first_order, &
     first_samples
 
-  !> Orders of the second solution above those of the first; its samples are half as many more.
+  !> Orders of the second solution above those of the first; its samples are half as many more, and
+  !! its slow coordinates `slow_a_level`.
   integer, parameter :: orders_above = 2
 
-  !> Slow coordinates beside those of the modes wanted, and at least.
-  integer, parameter :: slow_above = 5, least_slow = 8
+  !> Slow coordinates beside those of the modes wanted, and at least; more in the second solution,
+  !! and whenever orders and samples are raised.
+  integer, parameter :: slow_above = 5, least_slow = 8, slow_a_level = 2
 
   !> Stages of the collocation of slow motions.
   integer, parameter :: stages = 4
 
-  !> Exponents of both solutions change by no more than these shares of the accuracy in the last
-  !! round. Errors are to hold that many changes of the second; what the first lacks is in the
-  !! difference of both.
-  real(wp), parameter :: solved_to(2) = [1.0e-1_wp, 3.0e-2_wp], least_change = 1.0e-13_wp, many = &
-    10.0_wp
+  !> Exponents of both solutions are wrong by no more than these shares of the accuracy for what
+  !! their iterations leave. Errors are to hold twice the difference of both, what the first lacks
+  !! and some times what the second does, whose motions begin with those of the first.
+  real(wp), parameter :: solved_to(2) = [2.0e-1_wp, 1.0e-1_wp], least_change = 1.0e-13_wp, &
+    safety = 2.0_wp, many = 3.0_wp
 
   !> No error is stated smaller than this share of the accuracy: two solutions may agree by chance.
   real(wp), parameter :: least_share = 1.0e-2_wp
@@ -87,6 +89,7 @@ module stability
   type :: choice_t
     integer :: order = 0
     integer :: at = 0        !! of `sample_numbers`
+    integer :: slow = 0      !! coordinates of the first solution
     integer :: level(2) = 0  !! numbers of the levels of both solutions
     integer :: round = 0     !! times raised
     logical :: pending = .true.
@@ -122,6 +125,7 @@ contains
     if (allocated(error)) return
     do k = 1, n
       choice(k)%order = order
+      choice(k)%slow = slow_number(levels(first)%level%grid, request%modes) + slow_a_level
       choice(k)%at = first_samples(levels(first)%level%grid, request%modes, request%speed(k), &
         request%accuracy)
       if (request%samples > 0 .and. choice(k)%at > 0) then
@@ -223,12 +227,21 @@ contains
         speed < 0.0_wp, store, levels, choice%level(i), error)
       if (allocated(error)) return
       associate (level => levels(choice%level(i))%level)
-        call need_basis(slow_number(level%grid, request%modes), request%damping, level, error, &
-          .true.)
+        call need_basis(slow_of(choice, level, i), request%damping, level, error, .true.)
       end associate
       if (allocated(error)) return
     end do
   end subroutine find_levels
+
+  !> Slow coordinates of the first or second solution: more in every round.
+  pure function slow_of(choice, level, solution) result(number)
+    type(choice_t), intent(in) :: choice
+    type(level_t), intent(in) :: level
+    integer, intent(in) :: solution
+    integer :: number
+
+    number = min(level%grid%unknowns, choice%slow + (solution - 1)*slow_a_level)
+  end function slow_of
 
   !> Free motions of the slow coordinates of a level, with their numbers.
   !!
@@ -268,12 +281,11 @@ contains
     integer :: slow
 
     choice%pending = .false.
-    slow = slow_number(above%grid, request%modes)
+    slow = slow_of(choice, above, 2)
     call open_fourier(level%grid%samples, plan)
     call open_fourier(above%grid%samples, above_plan)
     attempt: block
-      call find_spectrum(level, plan, slow_number(level%grid, request%modes), speed, spectrum, &
-        here%error)
+      call find_spectrum(level, plan, slow_of(choice, level, 1), speed, spectrum, here%error)
       if (allocated(here%error)) exit attempt
       wanted = wanted_modes(spectrum, request%modes)
       call find_means(level, spectrum%motion%number, speed, spectrum, wanted, mean, here%error)
@@ -335,7 +347,7 @@ contains
             end associate
           end do
           if (is_of_another(above_wanted(i), better%exponent)) change = 1.0_wp
-          exponent%error = max(two_pi*(change + mode%change + many*better%change), &
+          exponent%error = max(two_pi*(safety*change + mode%change + many*better%change), &
             least_share*request%accuracy)
           exponent%signature = 0
           if (abs(exponent%growth) <= exponent%error .or. has_damping()) &
@@ -486,6 +498,7 @@ contains
       choice%pending = choice%pending .and. request%samples == 0
       choice%at = choice%at + 1
       choice%order = choice%order + 2
+      choice%slow = choice%slow + slow_a_level
     end subroutine settle
 
   end subroutine solve_speed
