@@ -51,7 +51,8 @@ contains
     if (allocated(error)) return
     call find_bases
     if (allocated(error)) return
-    !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k, modes, buckles)
+    !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) &
+    !$omp private(k, modes, buckles)
     do k = 1, size(request%speed)
       if (was_interrupted()) cycle
       associate (here => found%at_speed(k))

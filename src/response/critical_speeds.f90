@@ -135,7 +135,8 @@ contains
     end do
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
     do i = 1, size(candidate)
-      call find_rough(request, levels(candidate(i)%level(1))%level, candidate(i), rough(i), at_rest(i))
+      call find_rough(request, levels(candidate(i)%level(1))%level, candidate(i), rough(i), &
+        at_rest(i))
     end do
     !$omp end parallel do
     left_out = count((rough < hardly_excited*maxval(rough) .or. rough <= of_rounding*at_rest) &
@@ -149,8 +150,8 @@ contains
     end do
     !$omp end parallel do
     do i = 1, size(candidate)
-      if (.not. (candidate(i)%found .or. is_outside(candidate(i)%crossing%speed))) gap = [gap, &
-        gap_t(spread(candidate(i)%crossing%speed, 1, 2))]
+      if (candidate(i)%found .or. is_outside(candidate(i)%crossing%speed)) cycle
+      gap = [gap, gap_t(spread(candidate(i)%crossing%speed, 1, 2))]
     end do
     candidate = pack(candidate, candidate%found .and. .not. is_outside(candidate%speed))
     allocate (critical(size(candidate)))
