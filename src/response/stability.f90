@@ -72,8 +72,8 @@ module stability
   !> Turns as near as this to 0 or 1/2 are so; exponents as near to each other as this are one.
   real(wp), parameter :: as_good_as = 1.0e-9_wp
 
-  !> Larger errors, which leave no digit.
-  real(wp), parameter :: no_digits = 0.1_wp
+  !> Larger errors, which leave no digit; larger ones than the second are as large as that.
+  real(wp), parameter :: no_digits = 0.1_wp, nothing_known = 1.0e3_wp
 
   !> With damping, multipliers that have met are no farther from each other than this.
   real(wp), parameter :: met = 0.05_wp
@@ -347,8 +347,9 @@ contains
             end associate
           end do
           if (is_of_another(above_wanted(i), better%exponent)) change = 1.0_wp
-          exponent%error = max(two_pi*(safety*change + mode%change + many*better%change), &
-            least_share*request%accuracy)
+          exponent%error = min(nothing_known, max(two_pi*(safety*change + min(nothing_known, &
+            mode%change) + many*min(nothing_known, better%change)), &
+            least_share*request%accuracy))
           exponent%signature = 0
           if (abs(exponent%growth) <= exponent%error .or. has_damping()) &
             exponent%signature = merge(1, -1, better%action > 0.0_wp)
