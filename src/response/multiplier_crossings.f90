@@ -40,7 +40,7 @@ module multiplier_crossings
 
   !> Crossings are looked for outside of the speeds asked for, too, by this share of them: the
   !! critical speed may be inside.
-  real(wp), parameter :: beyond = 2.0e-2_wp
+  real(wp), parameter :: beyond = 1.0e-3_wp
 
   !> Angles are solved for to this many turns, in so many steps at most.
   real(wp), parameter :: solved_to = 1.0e-7_wp
