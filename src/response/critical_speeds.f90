@@ -359,6 +359,8 @@ contains
         if (round > 1 .and. (value - before)/step*rate > 0.0_wp) steep = (value - before)/step
         before = value
         step = -value/steep
+        ! Not beyond the middle, nor far away.
+        if (abs(step) > 0.5_wp*half) return
         at = at + step
         if (abs(step) <= enough*request%accuracy*at) return
       end do
