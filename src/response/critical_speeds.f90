@@ -64,6 +64,10 @@ module critical_speeds
   !! second are on the other side of the circle.
   real(wp), parameter :: wide_enough = 1.0e-4_wp, other_side = 0.3_wp
 
+  !> Crossings of slow motions are looked for outside of the speeds asked for, too, by this share of
+  !! them: the critical speed may be inside.
+  real(wp), parameter :: beyond = 1.0e-3_wp
+
   !> The second solution of an excitation has orders and samples above those of the first.
   integer, parameter :: orders_above = 2
 
@@ -112,6 +116,7 @@ contains
     integer, intent(out) :: left_out                 !! hardly excited
     type(error_t), allocatable, intent(out) :: error !! why there is nothing
 
+    type(stability_request_t) :: wider
     type(level_slot_t), allocatable :: levels(:)
     type(crossing_t), allocatable :: crossing(:)
     type(candidate_t), allocatable :: candidate(:)
@@ -120,9 +125,13 @@ contains
 
     allocate (levels(0))
     left_out = 0
-    call find_crossings(structure, request, frequency, threads, store, levels, crossing, gap, &
-      error)
+    wider = request
+    wider%speed = sign([minval(abs(request%speed))*(1.0_wp - beyond), maxval(abs( &
+      request%speed))*(1.0_wp + beyond)], request%speed(1))
+    call find_crossings(structure, wider, frequency, threads, store, levels, crossing, gap, error)
     if (allocated(error)) return
+    gap = pack(gap, gap%speed(2) > minval(abs(request%speed)) .and. gap%speed(1) < &
+      maxval(abs(request%speed)))
     allocate (candidate(size(crossing)), rough(size(crossing)), at_rest(size(crossing)))
     do i = 1, size(crossing)
       candidate(i)%crossing = crossing(i)

@@ -38,10 +38,6 @@ module multiplier_crossings
   !> Accuracy for which samples are chosen: slow motions are right to about this much.
   real(wp), parameter :: of_slow_motion = 1.0e-3_wp
 
-  !> Crossings are looked for outside of the speeds asked for, too, by this share of them: the
-  !! critical speed may be inside.
-  real(wp), parameter :: beyond = 1.0e-3_wp
-
   !> Angles are solved for to this many turns, in so many steps at most.
   real(wp), parameter :: solved_to = 1.0e-7_wp
   integer, parameter :: most_steps = 20
@@ -63,7 +59,7 @@ module multiplier_crossings
 contains
 
   !> All crossings of the vibrations wanted between the least and the greatest speed of a request,
-  !! and a little outside, in ascending order of the speed.
+  !! in ascending order of the speed.
   !!
   !! Errors: the crank does not turn fully; own modes of a link could not be found.
   subroutine find_crossings(structure, request, frequency, threads, store, levels, crossing, gap, &
@@ -83,8 +79,7 @@ contains
     integer, allocatable :: partner(:, :) !! (angles, points but the last) at the next point
     integer :: i, k
 
-    point = first_points([minval(abs(request%speed))*(1.0_wp - beyond), &
-      maxval(abs(request%speed))*(1.0_wp + beyond)], frequency)
+    point = first_points([minval(abs(request%speed)), maxval(abs(request%speed))], frequency)
     call find_all(point)
     do i = 1, most_refinements
       if (allocated(error)) return
@@ -100,8 +95,6 @@ contains
     gap = [gap_t ::]
     bad = pack([(k, k=1, size(point) - 1)], is_bad(point))
     do i = 1, size(bad)
-      if (point(bad(i) + 1)%speed <= minval(abs(request%speed)) .or. point(bad(i))%speed >= &
-        maxval(abs(request%speed))) cycle
       gap = [gap, gap_t([point(bad(i))%speed, point(bad(i) + 1)%speed])]
     end do
     call bracket
@@ -217,6 +210,8 @@ contains
               new%slope = change/(there%speed - here%speed)
               new%angle = one
               new%mode = usual_mode(j, m)
+              ! Numbers may be exchanged next to it.
+              if (new%mode > request%modes) new%mode = min(one%mode, other%mode)
               call find_level(here%speed, new%level)
               if (allocated(error)) return
               crossing = [crossing, new]
