@@ -42,9 +42,9 @@ module critical_speeds
   real(wp), parameter :: of_rounding = 1.0e-8_wp
 
   !> Speeds are solved for in so many rounds at most, to the first share of the accuracy; exponents
-  !! change by no more than the second in their last round, or than the least.
+  !! are wrong by no more than the second for what their iterations leave, or than the least.
   integer, parameter :: most_rounds = 6
-  real(wp), parameter :: enough = 0.1_wp, solved_to = 1.0e-2_wp, least_change = 1.0e-13_wp
+  real(wp), parameter :: enough = 0.1_wp, solved_to = 3.0e-2_wp, least_change = 1.0e-13_wp
 
   !> Turns below this are 0; real multipliers less apart are one.
   real(wp), parameter :: on_axis = 1.0e-9_wp, solved_to_turns = 1.0e-7_wp
@@ -71,9 +71,9 @@ module critical_speeds
   !> The second solution of an excitation has orders and samples above those of the first.
   integer, parameter :: orders_above = 2
 
-  !> Estimated errors are differences of two solutions times the first, last changes of exponents
-  !! times the second; none is stated below rounding.
-  real(wp), parameter :: safety = 2.0_wp, many = 10.0_wp, rounding = 1.0e-9_wp
+  !> Estimated errors are differences of two solutions times the first, what iterations leave
+  !! of exponents times the second; none is stated below rounding.
+  real(wp), parameter :: safety = 2.0_wp, many = 3.0_wp, rounding = 1.0e-9_wp
 
   !> A crossing on its way to a critical speed.
   type :: candidate_t

@@ -285,11 +285,12 @@ contains
     call open_fourier(level%grid%samples, plan)
     call open_fourier(above%grid%samples, above_plan)
     attempt: block
+      call find_means(level, slow_of(choice, level, 1), speed, request%modes, mean, here%error)
+      if (allocated(here%error)) exit attempt
       call find_spectrum(level, plan, slow_of(choice, level, 1), speed, spectrum, here%error)
       if (allocated(here%error)) exit attempt
       wanted = wanted_modes(spectrum, request%modes)
-      call find_means(level, spectrum%motion%number, speed, spectrum, wanted, mean, here%error)
-      if (allocated(here%error)) exit attempt
+      if (.not. allocated(mean)) mean = spectrum%mode(wanted)%shape_frequency
       call refine_all(request, solved_to(1), level, plan, speed, spectrum, wanted, modes)
       call find_spectrum(above, above_plan, slow, speed, above_spectrum, here%error)
       if (allocated(here%error)) exit attempt
@@ -591,28 +592,23 @@ contains
     end do
   end function nearest_other
 
-  !> Mean frequencies over the turn of the frozen linkage; where it buckles in some position, those
-  !! of the shapes of the moving one.
+  !> Mean frequencies over the turn of the frozen linkage; none where it buckles in some position.
   !!
   !! Errors: a vibration fades so fast that its multiplier is lost in rounding.
-  subroutine find_means(level, slow, speed, spectrum, wanted, mean, error)
+  subroutine find_means(level, slow, speed, modes, mean, error)
     type(level_t), intent(in) :: level
     integer, intent(in) :: slow
     real(wp), intent(in) :: speed
-    type(turn_spectrum_t), intent(in) :: spectrum
-    integer, intent(in) :: wanted(:)
-    real(wp), allocatable, intent(out) :: mean(:) !! (modes) [rad/s]
+    integer, intent(in) :: modes
+    real(wp), allocatable, intent(out) :: mean(:) !! (modes that there are) [rad/s]
     type(error_t), allocatable, intent(out) :: error
 
     type(error_t), allocatable :: buckles
-    real(wp), dimension(size(wanted), level%coarse%samples/2) :: frequency, fading
+    real(wp), dimension(min(modes, slow), level%coarse%samples/2) :: frequency, fading
     real(wp) :: spread
 
     call find_frozen_frequencies(level%basis(slow), speed, frequency, fading, buckles)
-    if (allocated(buckles)) then
-      mean = spectrum%mode(wanted)%shape_frequency
-      return
-    end if
+    if (allocated(buckles)) return
     mean = sum(frequency, dim=2)/size(frequency, 2)
     associate (mean_fading => sum(fading, dim=2)/size(fading, 2))
       spread = two_pi/speed*(maxval(mean_fading) - minval(mean_fading))
