@@ -59,7 +59,7 @@ LINK     follower O4 B length=4.7388163 material=steel section=s2
 DRIVE    crank
 DAMPING  * time=0.03036
 FORCE    B 1252.8 -520.55
-SPEED    0.505809 0.627203
+SPEED    0.54 0.57
 MODES    1
 REPORT   campbell accuracy=1e-4
 DECK
