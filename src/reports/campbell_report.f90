@@ -5,7 +5,7 @@ module campbell_report
   use models, only: accuracy_of_study
   use number_text, only: number_width
   use response_notes, only: damping_note, without_note
-  use stability_report, only: stability_words, verdict_word
+  use stability_report, only: is_short, lost_note, stability_words, verdict_word
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: integer_cell, name_cell
@@ -37,6 +37,8 @@ contains
       allocated(variant%found%campbell%at_speed(i)%error), i=1, &
       size(variant%found%campbell%at_speed))])) call append_string(notes, "-: frozen in some "// &
       "position, the linkage buckles under the axial forces of the speed and has no frequencies")
+    if (any([(is_short(variant%found%campbell%at_speed(i)%exponent, variant%model%modes), i=1, &
+      size(variant%found%campbell%at_speed))])) call append_string(notes, lost_note)
     call append_common_notes(notes, variant)
   end subroutine campbell_notes
 

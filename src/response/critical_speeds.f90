@@ -83,6 +83,7 @@ module critical_speeds
     integer :: line = 0
     real(wp) :: centre(2) = 0.0_wp   !! of its exponents on both levels, per radian of the crank
     real(wp) :: square(2) = 0.0_wp   !! of their distance from it; less than 0: it is imaginary
+    real(wp) :: change = 0.0_wp      !! what iterations leave of them, times `many`
     integer :: level(2) = 0          !! numbers of the levels of both solutions
     logical :: found = .false.
   end type candidate_t
@@ -275,6 +276,7 @@ contains
     candidate%centre = [rough%centre, here%centre]
     candidate%square = [rough%apart, here%apart]**2 - [rough%turns, here%turns]**2
     candidate%speed_error = max(rounding, candidate%speed_error/(abs(slope)*here%speed))
+    candidate%change = many*max(rough%change, here%change)
     candidate%line = nint(here%mean/here%speed)
     ! What went far from the crossing is not solved for.
     candidate%found = candidate%line > 0 .and. candidate%speed_error <= most_error .and. &
@@ -411,6 +413,7 @@ contains
       call find_floquet_modes(level%grid, plan, level%basis(slow), spectrum%motion, speed, &
         damping, request%terms, max(solved_to*request%accuracy/two_pi, least_change), &
         spectrum%mode, wanted, mode)
+      if (any(mode%change > far)) exit attempt
       trial%turns = abs(aimag(mode(1)%exponent))
       trial%change = maxval(mode%change)
       if (any(damping > 0.0_wp)) trial%centre = sum(real(mode%exponent))/size(mode)
@@ -468,6 +471,9 @@ contains
     critical%amplitude = fine(2)
     critical%error = max(rounding, maxval((safety*abs(fine - rough) + change)/max(fine, &
       tiny(1.0_wp))))
+    ! The amplitude is that of the resonance over the growth.
+    if (fine(2) > 0.0_wp) critical%error = critical%error + candidate%change/max( &
+      abs(candidate%centre(2)), candidate%change)
     if (fine(2) <= 0.0_wp .and. any(request%damping%kind /= no_damping)) call set_error( &
       critical%fault, error_of_numerics, "vibrations grow by themselves: there is no steady state")
 

@@ -13,7 +13,7 @@
 !! their partner at −σ̄.
 module floquet_exponents
   use constants, only: two_pi
-  use elastic_equations, only: elastic_terms_t, equation_parts
+  use elastic_equations, only: add_damping_parts, elastic_terms_t, equation_parts
   use errors, only: error_t
   use fourier_transform, only: fourier_plan_t
   use kinds, only: wp
@@ -51,19 +51,10 @@ module floquet_exponents
   !> No exponent differs more than this from its first approximation.
   real(wp), parameter :: farthest = 0.02_wp
 
-  !> The last changes of an exponent that have to be small, of which one counts without damping: one
-  !! may be so by chance, where a correction of its motion was of no use.
-  integer, parameter :: changes_that_count = 2
-
-  !> Results that are better than those before by less than this are not kept.
+  !> Results that are better than those before by less than this are not kept, and so many rounds
+  !! without a better one are the last.
   real(wp), parameter :: better_by = 0.7_wp
-
-  !> With damping motions of the adjoint equation, whose damping is negative, differ from those of
-  !! the equation by this many times `c ω`.
-  real(wp), parameter :: adjoint_share = 2.0_wp
-
-  !> Part of the action of a mode that is left, at least, where multipliers have met.
-  real(wp), parameter :: least_sensitivity = 0.05_wp
+  integer, parameter :: most_idle = 25
 
   !> No smaller change of the square of a difference of exponents can be asked for.
   real(wp), parameter :: least_square_change = 1.0e-14_wp
@@ -285,12 +276,12 @@ contains
 
     type(space_t) :: space
     complex(wp), allocatable :: values(:), vectors(:, :), weights(:), partner_weights(:)
-    complex(wp) :: fixed, before, expected, followed, followed_partner, second
+    complex(wp) :: fixed, expected, followed, followed_partner, second
     complex(wp) :: square, square_before
-    real(wp), dimension(grid%samples, 2*grid%unknowns) :: correction, correction_of_partner
-    real(wp) :: changes(changes_that_count), error
+    real(wp), dimension(grid%samples, 2*grid%unknowns) :: residual, correction
+    real(wp) :: error
     complex(wp) :: here
-    integer :: number, partner, round
+    integer :: idle, number, partner, round
     logical :: grew, is_damped
 
     is_damped = any(damping > 0.0_wp)
@@ -299,9 +290,12 @@ contains
     if (present(pair)) pair%change = huge(1.0_wp)
     fixed = mode%exponent + shift
     expected = mode%exponent
-    if (present(known)) expected = known%exponent
+    if (present(known)) then
+      expected = known%exponent
+      if (known%change < shift) fixed = expected + shift
+    end if
     square = 0.0_wp
-    here = expected
+    idle = 0
     call start
     do round = 1, most_rounds
       if (space%is_harmonic) then
@@ -324,18 +318,17 @@ contains
       if (partner == 0) return
       followed_partner = values(partner)
       partner_weights = vectors(:, partner)
-      before = here
       here = followed
       if (present(pair)) pair%exponent = [followed, followed_partner]
       if (space%is_harmonic .and. .not. (is_damped .and. present(pair))) call take_value_of_form
-      call correct(here, weights, correction)
-      changes = [changes(2:), abs(here - before)]
-      if (round == 1) changes = huge(1.0_wp)
-      error = max(maxval(changes(merge(1, 2, is_damped):)), doubt())
-      if (error < better_by*mode%change .or. error <= tolerance .or. present(pair) .or. &
-        round == 1) then
+      call find_residual(here, weights, residual)
+      call approximate(residual, correction)
+      error = doubt()
+      idle = idle + 1
+      if (error < better_by*mode%change .or. error <= tolerance .or. present(pair)) then
         mode%exponent = here
         mode%change = error
+        idle = 0
         call describe(weights)
       end if
       if (present(pair)) then
@@ -343,18 +336,20 @@ contains
         square = (pair%exponent(1) - pair%exponent(2))**2
         pair%change = abs(square - square_before)
         if (round > 1 .and. pair%change <= max(pair%tolerance, least_square_change)) exit
-      else if (error <= tolerance) then
+      else if (error <= tolerance .or. idle == most_idle) then
         exit
       end if
       if (round == rounds_of_projection(merge(2, 1, is_damped))) then
         call gather(weights, partner_weights)
+        if (.not. present(pair) .and. mode%change < shift) fixed = mode%exponent + shift
         call make_harmonic
       end if
       if (space%number > most_vectors - 2) call gather(weights, partner_weights)
       grew = .false.
       if (partner /= number) then
-        call correct(followed_partner, partner_weights, correction_of_partner)
-        call add_vector(correction_of_partner, grew)
+        call add_vector(correction, grew)
+        call find_residual(followed_partner, partner_weights, residual)
+        call approximate(residual, correction)
       end if
       call add_vector(correction, grew)
       if (.not. grew) exit
@@ -457,16 +452,10 @@ contains
 
     !> Keeps both modes for a speed near by.
     subroutine remember
-      integer :: i
-
       if (allocated(pair%known)) deallocate (pair%known)
       allocate (pair%known(grid%samples, 2*grid%unknowns, 2))
-      pair%known = 0.0_wp
-      do i = 1, size(weights)
-        pair%known(:, :, 1) = pair%known(:, :, 1) + times(weights(i), space%vector(:, :, i))
-        pair%known(:, :, 2) = pair%known(:, :, 2) + times(partner_weights(i), &
-          space%vector(:, :, i))
-      end do
+      pair%known(:, :, 1) = motion_of(weights)
+      pair%known(:, :, 2) = motion_of(partner_weights)
     end subroutine remember
 
     !> Begins the space anew with the mode, its partner and the modes near.
@@ -564,23 +553,58 @@ contains
       end do
     end subroutine add_solved
 
-    !> How wrong the exponent may be by what its motion leaves in the equation: with w, the motion
-    !! of the adjoint equation, the error is `wᴴ L(σ) z/(wᴴ L'(σ) z)`, and only what w has outside
-    !! of the space counts. That is as much as the motion of the partner lacks, or with damping, of
-    !! which the space knows no adjoint motion, the share of that in w.
+    !> How wrong the exponent may be by the residual r of its motion, which lacks e, about the
+    !! correction. With w, the motion of the adjoint equation, and v, that of the partner, which is
+    !! about w, the error is `wᴴr/(wᴴL'(σ) z)`, and since `vᴴr = 0` and r is `−L(σ) e` to first
+    !! order, `wᴴr = (L(σ)ᴴv)ᴴe`. Products of all samples count with their absolute values. Where
+    !! multipliers meet the error is the root of a quadratic equation.
     function doubt()
       real(wp) :: doubt
 
-      real(wp) :: lacks, kinetic, sensitivity
+      real(wp) :: motion(grid%samples, 2*grid%unknowns), product, slope, bend
 
-      kinetic = real(dot_product(weights, matmul(space%form(:space%number, :space%number, 2), &
+      motion = motion_of(weights)
+      product = sum_of_absolute_products(adjoint_residual(), correction - times( &
+        product_of(motion, correction), motion))
+      slope = abs(dot_product(partner_weights, matmul(slope_of_form(here), weights)))
+      bend = abs(dot_product(partner_weights, matmul(space%form(:space%number, :space%number, 2), &
         weights)))
-      sensitivity = abs(dot_product(partner_weights, matmul(slope_of_form(here), &
-        weights)))/(2.0_wp*sqrt(max(kinetic, tiny(1.0_wp))))
-      lacks = norm2(correction)
-      doubt = lacks*max(lacks, min(1.0_wp, adjoint_share*slow(wanted)%frequency* &
-        maxval(damping(:grid%unknowns))))/max(sensitivity, least_sensitivity)
+      if (slope**2 > 4.0_wp*bend*product) then
+        doubt = 2.0_wp*product/(slope + sqrt(slope**2 - 4.0_wp*bend*product))
+      else
+        doubt = sqrt(product/max(bend, tiny(1.0_wp)))
+      end if
     end function doubt
+
+    !> A vector of the space.
+    function motion_of(weights) result(z)
+      complex(wp), intent(in) :: weights(:) !! of its vectors
+      real(wp) :: z(grid%samples, 2*grid%unknowns)
+
+      integer :: i
+
+      z = 0.0_wp
+      do i = 1, size(weights)
+        z = z + times(weights(i), space%vector(:, :, i))
+      end do
+    end function motion_of
+
+    !> `L(σ)ᴴ v` of the partner's motion v: L at −σ̄, with damping that drives.
+    function adjoint_residual() result(left)
+      real(wp) :: left(grid%samples, 2*grid%unknowns)
+
+      real(wp) :: v(grid%samples, 2*grid%unknowns), parts(grid%samples, 2*grid%unknowns, 0:1)
+      integer :: n
+
+      call find_residual(-conjg(here), partner_weights, left)
+      if (.not. is_damped) return
+      n = grid%unknowns
+      v = motion_of(partner_weights)
+      parts = 0.0_wp
+      call add_damping_parts(grid, plan, speed, damping, v(:, :n), parts(:, :n, :))
+      call add_damping_parts(grid, plan, speed, damping, v(:, n + 1:), parts(:, n + 1:, :))
+      left = left - 2.0_wp*(parts(:, :, 0) - times(conjg(here), parts(:, :, 1)))
+    end function adjoint_residual
 
     !> `vᴴL'(σ) v`.
     pure function slope_of_form(exponent) result(slope)
@@ -653,13 +677,12 @@ contains
         z_imaginary, y(:, n + 1:))
     end subroutine approximate
 
-    !> The correction of a vector of the space, from what it leaves in the equation.
-    subroutine correct(exponent, weights, correction)
+    !> What a vector of the space leaves in the equation.
+    subroutine find_residual(exponent, weights, residual)
       complex(wp), intent(in) :: exponent
       complex(wp), intent(in) :: weights(:) !! of the vectors
-      real(wp), intent(out) :: correction(:, :)
+      real(wp), intent(out) :: residual(:, :)
 
-      real(wp) :: residual(grid%samples, 2*grid%unknowns)
       integer :: i, p
 
       residual = 0.0_wp
@@ -668,8 +691,7 @@ contains
           residual = residual + times(weights(i)*exponent**p, space%parts(:, :, p, i))
         end do
       end do
-      call approximate(residual, correction)
-    end subroutine correct
+    end subroutine find_residual
 
     !> Frequency and action of the mode.
     subroutine describe(weights)
@@ -720,6 +742,17 @@ contains
     product = cmplx(sum_of_products(z, f), sum_of_products(z(:, :n), f(:, n + 1:)) - &
       sum_of_products(z(:, n + 1:), f(:, :n)), wp)
   end function product_of
+
+  !> `Σ |z| |f|`.
+  pure function sum_of_absolute_products(z, f) result(product)
+    real(wp), intent(in) :: z(:, :), f(:, :)
+    real(wp) :: product
+
+    integer :: n
+
+    n = size(z, 2)/2
+    product = sum(sqrt((z(:, :n)**2 + z(:, n + 1:)**2)*(f(:, :n)**2 + f(:, n + 1:)**2)))
+  end function sum_of_absolute_products
 
   !> `c f`.
   pure function times(c, f) result(product)

@@ -34,22 +34,19 @@ module stability
   public :: find_stability, turn_spectrum_t, find_spectrum, slow_number, first_order, &
     first_samples
 
-  !> Orders of the second solution above those of the first; its samples are half as many more, and
-  !! its slow coordinates `slow_a_level`.
+  !> Orders of the second solution above those of the first; its samples are half as many more.
   integer, parameter :: orders_above = 2
 
-  !> Slow coordinates beside those of the modes wanted, and at least; more in the second solution,
-  !! and whenever orders and samples are raised.
-  integer, parameter :: slow_above = 5, least_slow = 8, slow_a_level = 2
+  !> Slow coordinates beside those of the modes wanted, and at least.
+  integer, parameter :: slow_above = 5, least_slow = 8
 
   !> Stages of the collocation of slow motions.
   integer, parameter :: stages = 4
 
   !> Exponents of both solutions are wrong by no more than these shares of the accuracy for what
-  !! their iterations leave. Errors are to hold twice the difference of both, what the first lacks
-  !! and some times what the second does, whose motions begin with those of the first.
-  real(wp), parameter :: solved_to(2) = [2.0e-1_wp, 1.0e-1_wp], least_change = 1.0e-13_wp, &
-    safety = 2.0_wp, many = 3.0_wp
+  !! their iterations leave. Errors are to hold some times what the second lacks by that.
+  real(wp), parameter :: solved_to(2) = [2.0e-1_wp, 1.0e-1_wp], least_change = 1.0e-13_wp, many = &
+    3.0_wp
 
   !> No error is stated smaller than this share of the accuracy: two solutions may agree by chance.
   real(wp), parameter :: least_share = 1.0e-2_wp
@@ -72,8 +69,8 @@ module stability
   !> Turns as near as this to 0 or 1/2 are so; exponents as near to each other as this are one.
   real(wp), parameter :: as_good_as = 1.0e-9_wp
 
-  !> Larger errors, which leave no digit; larger ones than the second are as large as that.
-  real(wp), parameter :: no_digits = 0.1_wp, nothing_known = 1.0e3_wp
+  !> Larger errors, which leave no digit.
+  real(wp), parameter :: no_digits = 0.1_wp
 
   !> With damping, multipliers that have met are no farther from each other than this.
   real(wp), parameter :: met = 0.05_wp
@@ -89,7 +86,6 @@ module stability
   type :: choice_t
     integer :: order = 0
     integer :: at = 0        !! of `sample_numbers`
-    integer :: slow = 0      !! coordinates of the first solution
     integer :: level(2) = 0  !! numbers of the levels of both solutions
     integer :: round = 0     !! times raised
     logical :: pending = .true.
@@ -125,7 +121,6 @@ contains
     if (allocated(error)) return
     do k = 1, n
       choice(k)%order = order
-      choice(k)%slow = slow_number(levels(first)%level%grid, request%modes) + slow_a_level
       choice(k)%at = first_samples(levels(first)%level%grid, request%modes, request%speed(k), &
         request%accuracy)
       if (request%samples > 0 .and. choice(k)%at > 0) then
@@ -227,21 +222,12 @@ contains
         speed < 0.0_wp, store, levels, choice%level(i), error)
       if (allocated(error)) return
       associate (level => levels(choice%level(i))%level)
-        call need_basis(slow_of(choice, level, i), request%damping, level, error, .true.)
+        call need_basis(slow_number(level%grid, request%modes), request%damping, level, error, &
+          .true.)
       end associate
       if (allocated(error)) return
     end do
   end subroutine find_levels
-
-  !> Slow coordinates of the first or second solution: more in every round.
-  pure function slow_of(choice, level, solution) result(number)
-    type(choice_t), intent(in) :: choice
-    type(level_t), intent(in) :: level
-    integer, intent(in) :: solution
-    integer :: number
-
-    number = min(level%grid%unknowns, choice%slow + (solution - 1)*slow_a_level)
-  end function slow_of
 
   !> Free motions of the slow coordinates of a level, with their numbers.
   !!
@@ -281,23 +267,26 @@ contains
     integer :: slow
 
     choice%pending = .false.
-    slow = slow_of(choice, above, 2)
+    slow = slow_number(above%grid, request%modes)
     call open_fourier(level%grid%samples, plan)
     call open_fourier(above%grid%samples, above_plan)
     attempt: block
-      call find_means(level, slow_of(choice, level, 1), speed, request%modes, mean, here%error)
-      if (allocated(here%error)) exit attempt
-      call find_spectrum(level, plan, slow_of(choice, level, 1), speed, spectrum, here%error)
+      call find_spectrum(level, plan, slow_number(level%grid, request%modes), speed, spectrum, &
+        here%error)
       if (allocated(here%error)) exit attempt
       wanted = wanted_modes(spectrum, request%modes)
-      if (.not. allocated(mean)) mean = spectrum%mode(wanted)%shape_frequency
-      call refine_all(request, solved_to(1), level, plan, speed, spectrum, wanted, modes)
+      call find_means(level, spectrum%motion%number, speed, spectrum, wanted, mean, here%error)
+      if (allocated(here%error)) exit attempt
+      call refine_all(request, solved_to(1), level, plan, speed, spectrum, wanted, modes, &
+        here%error)
+      if (allocated(here%error)) exit attempt
       call find_spectrum(above, above_plan, slow, speed, above_spectrum, here%error)
       if (allocated(here%error)) exit attempt
       above_wanted = matched(spectrum, wanted, above_spectrum)
       call transfer
       call refine_all(request, solved_to(2), above, above_plan, speed, above_spectrum, &
-        above_wanted, above_modes, known)
+        above_wanted, above_modes, here%error, known)
+      if (allocated(here%error)) exit attempt
       here%order = above%order
       here%samples = above%grid%samples
       here%slow = slow
@@ -348,9 +337,8 @@ contains
             end associate
           end do
           if (is_of_another(above_wanted(i), better%exponent)) change = 1.0_wp
-          exponent%error = min(nothing_known, max(two_pi*(safety*change + min(nothing_known, &
-            mode%change) + many*min(nothing_known, better%change)), &
-            least_share*request%accuracy))
+          exponent%error = max(two_pi*(change + mode%change + many*better%change), &
+            least_share*request%accuracy)
           exponent%signature = 0
           if (abs(exponent%growth) <= exponent%error .or. has_damping()) &
             exponent%signature = merge(1, -1, better%action > 0.0_wp)
@@ -500,7 +488,6 @@ contains
       choice%pending = choice%pending .and. request%samples == 0
       choice%at = choice%at + 1
       choice%order = choice%order + 2
-      choice%slow = choice%slow + slow_a_level
     end subroutine settle
 
   end subroutine solve_speed
@@ -528,7 +515,9 @@ contains
   end function wanted_modes
 
   !> Modes of the whole equation.
-  subroutine refine_all(request, share, level, plan, speed, spectrum, wanted, modes, known)
+  !!
+  !! Errors: nothing is known of an exponent.
+  subroutine refine_all(request, share, level, plan, speed, spectrum, wanted, modes, error, known)
     type(stability_request_t), intent(in) :: request
     real(wp), intent(in) :: share !! of the accuracy, of the last change
     type(level_t), intent(in) :: level
@@ -537,6 +526,7 @@ contains
     type(turn_spectrum_t), intent(in) :: spectrum
     integer, intent(in) :: wanted(:)
     type(floquet_mode_t), allocatable, intent(out) :: modes(:)
+    type(error_t), allocatable, intent(out) :: error
     type(floquet_mode_t), intent(in), optional :: known(:) !! about these
 
     allocate (modes(size(wanted)))
@@ -544,6 +534,8 @@ contains
       spectrum%motion, speed, damping_of(request%damping, level%grid), request%terms, &
       max(share*request%accuracy/two_pi, least_change), spectrum%mode, wanted, modes, &
       known)
+    if (any(modes%change >= huge(1.0_wp))) call set_error(error, error_of_numerics, &
+      "nothing is known of the exponent of a vibration: the equation has none in its motions")
   end subroutine refine_all
 
   !> The modes of another level with the exponents of those wanted, each once.
@@ -592,23 +584,28 @@ contains
     end do
   end function nearest_other
 
-  !> Mean frequencies over the turn of the frozen linkage; none where it buckles in some position.
+  !> Mean frequencies over the turn of the frozen linkage; where it buckles in some position, those
+  !! of the shapes of the moving one.
   !!
   !! Errors: a vibration fades so fast that its multiplier is lost in rounding.
-  subroutine find_means(level, slow, speed, modes, mean, error)
+  subroutine find_means(level, slow, speed, spectrum, wanted, mean, error)
     type(level_t), intent(in) :: level
     integer, intent(in) :: slow
     real(wp), intent(in) :: speed
-    integer, intent(in) :: modes
-    real(wp), allocatable, intent(out) :: mean(:) !! (modes that there are) [rad/s]
+    type(turn_spectrum_t), intent(in) :: spectrum
+    integer, intent(in) :: wanted(:)
+    real(wp), allocatable, intent(out) :: mean(:) !! (modes) [rad/s]
     type(error_t), allocatable, intent(out) :: error
 
     type(error_t), allocatable :: buckles
-    real(wp), dimension(min(modes, slow), level%coarse%samples/2) :: frequency, fading
+    real(wp), dimension(size(wanted), level%coarse%samples/2) :: frequency, fading
     real(wp) :: spread
 
     call find_frozen_frequencies(level%basis(slow), speed, frequency, fading, buckles)
-    if (allocated(buckles)) return
+    if (allocated(buckles)) then
+      mean = spectrum%mode(wanted)%shape_frequency
+      return
+    end if
     mean = sum(frequency, dim=2)/size(frequency, 2)
     associate (mean_fading => sum(fading, dim=2)/size(fading, 2))
       spread = two_pi/speed*(maxval(mean_fading) - minval(mean_fading))

@@ -75,7 +75,7 @@ def run(program, folder, name, text, table):
         file.write(text)
     try:
         status = subprocess.run([program, "--quiet", "--threads", "1", "--out", folder, path], stdout=subprocess.DEVNULL,
-                                stderr=subprocess.DEVNULL, timeout=60, check=False).returncode
+                                stderr=subprocess.DEVNULL, timeout=10, check=False).returncode
     except subprocess.TimeoutExpired:
         return None, []
     try:
@@ -148,7 +148,7 @@ def main():
         os.makedirs(folder)
         table = "stability.dat" if report == "stability" else "critical.dat"
         modes = draw.choice((1, 2, 3)) if report == "stability" else 1
-        accuracy = 10.0**draw.choice((-3, -4))
+        accuracy = 10.0**draw.choice((-2, -3))
         runs = {"plain": deck(case, report, accuracy, modes), "finer": deck(case, report, accuracy*1e-4, modes),
                 "more_modes": deck(case, report, accuracy, modes + 1), "rotated": deck(case, report, accuracy, modes, turn=1.1),
                 "mirrored": deck(case, report, accuracy, modes, mirrored=True)}
