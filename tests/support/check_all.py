@@ -37,6 +37,7 @@ FAMILIES = [
     ("bodies in equilibrium", "tests/linkages/force_tables.py 1 300 --inputs inputs --program {program}"),
     ("rigid tables", "tests/linkages/rigid_tables.py 1 300 --program {program}"),
     ("estimates of responses", "tests/stress/estimates_response.py 1 300 --program {program}"),
+    ("estimates of running linkages", "tests/stress/estimates_running.py 1 400 --program {program}"),
     ("accuracies", "tests/stress/compare_accuracies.py {program} --frequencies 20000 --seed 1"),
     ("stress", "tests/stress/run_stress.py {program} --every 4 --no-figures"),
     ("stress of responses", "build/release/stress/responses 420 {threads} build/check-all/responses.dat 1"),
