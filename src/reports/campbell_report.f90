@@ -3,8 +3,9 @@
 module campbell_report
   use constants, only: two_pi
   use models, only: accuracy_of_study
+  use number_text, only: number_width
   use response_notes, only: damping_note, without_note
-  use stability_report, only: stability_words, verdict_word
+  use stability_report, only: is_short, lost_note, stability_words, verdict_word
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: integer_cell, name_cell
@@ -23,6 +24,8 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its Campbell diagram computed
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
+    integer :: i
+
     call append_string(notes, "least, mean, greatest: frequencies over a turn of the linkage "// &
       "frozen at its positions, with the axial forces of the speed; modes in ascending order")
     call append_string(notes, "floquet: of the free vibrations of the moving linkage; of those "// &
@@ -30,6 +33,12 @@ contains
       "frequencies of their shapes over the turn")
     call append_string(notes, "band_error: estimated, relative, of least, mean and greatest; "// &
       "error: estimated, of growth and of 2 pi floquet/speed")
+    if (.not. all([(allocated(variant%found%campbell%at_speed(i)%band) .or. &
+      allocated(variant%found%campbell%at_speed(i)%error), i=1, &
+      size(variant%found%campbell%at_speed))])) call append_string(notes, "-: frozen in some "// &
+      "position, the linkage buckles under the axial forces of the speed and has no frequencies")
+    if (any([(is_short(variant%found%campbell%at_speed(i)%exponent, variant%model%modes), i=1, &
+      size(variant%found%campbell%at_speed))])) call append_string(notes, lost_note)
     call append_common_notes(notes, variant)
   end subroutine campbell_notes
 
@@ -78,6 +87,7 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
+    character(len=:), allocatable :: frozen
     integer :: i
 
     associate (found => variant%found%campbell%at_speed(speed), &
@@ -87,10 +97,13 @@ contains
         return
       end if
       do i = 1, size(found%exponent)
-        associate (exponent => found%exponent(i), band => found%band(i))
+        frozen = repeat(name_cell("-", number_width), 4)
+        if (allocated(found%band)) frozen = cells(layout, 3, [found%band(i)%least/two_pi, &
+          found%band(i)%mean/two_pi, found%band(i)%greatest/two_pi, found%band(i)%error])
+        associate (exponent => found%exponent(i))
           call add_row(rows, cells(layout, 1, [shown])//integer_cell(exponent%mode, "mode")// &
-            cells(layout, 3, [band%least/two_pi, band%mean/two_pi, band%greatest/two_pi, &
-            band%error, exponent%frequency/two_pi, exponent%growth, exponent%error])// &
+            frozen//cells(layout, 7, [exponent%frequency/two_pi, exponent%growth, &
+            exponent%error])// &
             name_cell(trim(verdict_word(exponent)), column_width(layout, 10)))
         end associate
       end do

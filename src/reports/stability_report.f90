@@ -12,7 +12,11 @@ module stability_report
   implicit none (type, external)
   private
 
-  public :: stability_notes, stability_words, add_stability, verdict_word
+  public :: stability_notes, stability_words, add_stability, verdict_word, is_short, lost_note
+
+  !> Why modes have no row.
+  character(len=*), parameter :: lost_note = "modes without a row fade so fast beside the "// &
+    "slowest to fade that rounding leaves nothing of their multipliers"
 
   !> Width of the column `verdict`: the longest word, and a blank.
   integer, parameter :: verdict_width = 16
@@ -24,6 +28,8 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its stability computed
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
+    integer :: i
+
     call append_string(notes, "free vibrations of the moving linkage at constant speed of the "// &
       "crank; after a turn each is multiplied by e^(growth + 2 pi i turns); modes are numbered "// &
       "by the frequencies of their shapes over the turn")
@@ -34,12 +40,24 @@ contains
       "unstable:2+3 (multipliers of these modes have met); undecided where the error does not "// &
       "decide")
     call append_string(notes, damping_note(variant))
+    if (any([(is_short(variant%found%stability%at_speed(i)%exponent, variant%model%modes), i=1, &
+      size(variant%found%stability%at_speed))])) call append_string(notes, lost_note)
     associate (model => variant%model)
       if (model%without%keyword%line > 0) call append_string(notes, without_note(variant))
       call append_string(notes, "error: estimated, of growth and of 2 pi turns; accuracy asked "// &
         "for: "//to_string(accuracy_of_study(model, "stability")))
     end associate
   end subroutine stability_notes
+
+  !> Whether exponents were found, but not of all modes.
+  pure function is_short(exponent, modes) result(yes)
+    type(exponent_t), allocatable, intent(in) :: exponent(:)
+    integer, intent(in) :: modes
+    logical :: yes
+
+    yes = .false.
+    if (allocated(exponent)) yes = size(exponent) < modes
+  end function is_short
 
   !> The column `verdict`, with a word as long as the longest.
   pure function stability_words() result(list)

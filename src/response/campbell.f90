@@ -41,6 +41,7 @@ contains
 
     type(stability_t) :: exponents
     type(slow_basis_t) :: basis(2)
+    type(error_t), allocatable :: buckles
     real(wp) :: frequency(2)
     integer :: k, modes
 
@@ -50,7 +51,8 @@ contains
     if (allocated(error)) return
     call find_bases
     if (allocated(error)) return
-    !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k, modes)
+    !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) &
+    !$omp private(k, modes, buckles)
     do k = 1, size(request%speed)
       if (was_interrupted()) cycle
       associate (here => found%at_speed(k))
@@ -59,13 +61,18 @@ contains
         else
           here%exponent = exponents%at_speed(k)%exponent
           modes = size(here%exponent)
-          call find_bands(basis(1), basis(2), abs(request%speed(k)), modes, here%band, here%error)
+          call find_bands(basis(1), basis(2), abs(request%speed(k)), modes, here%band, buckles)
+          if (allocated(buckles)) deallocate (here%band)
         end if
       end associate
     end do
     !$omp end parallel do
     frequency = [huge(1.0_wp), 0.0_wp]
     do k = 1, size(request%speed)
+      if (.not. allocated(found%at_speed(k)%exponent)) cycle
+      associate (here => found%at_speed(k)%exponent%frequency)
+        frequency = [min(frequency(1), minval(here)), max(frequency(2), maxval(here))]
+      end associate
       if (.not. allocated(found%at_speed(k)%band)) cycle
       associate (band => found%at_speed(k)%band)
         frequency = [min(frequency(1), band(1)%mean), max(frequency(2), band(size(band))%mean)]

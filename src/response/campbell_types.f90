@@ -20,7 +20,8 @@ module campbell_types
   !> What is known at a speed of the deck.
   type :: speed_campbell_t
     type(error_t), allocatable :: error          !! why there is nothing
-    type(band_t), allocatable :: band(:)         !! (modes)
+    type(band_t), allocatable :: band(:)         !! (modes); none where the linkage frozen in some
+                                                 !! position buckles under the axial forces
     type(exponent_t), allocatable :: exponent(:) !! (modes)
   end type speed_campbell_t
 

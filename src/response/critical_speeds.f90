@@ -10,6 +10,7 @@
 module critical_speeds
   use campbell_types, only: critical_t, gap_t
   use constants, only: two_pi
+  use elastic_equations, only: load_at_speed
   use errors, only: error_of_numerics, error_t, set_error
   use floquet_exponents, only: find_floquet_modes, floquet_mode_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
@@ -37,10 +38,13 @@ module critical_speeds
   !! less of it in slow motions.
   real(wp), parameter :: least_excited = 1.0e-2_wp, hardly_excited = 5.0e-3_wp
 
+  !> So are those with less of the deflection of the linkage at rest under the same loads: rounding.
+  real(wp), parameter :: of_rounding = 1.0e-8_wp
+
   !> Speeds are solved for in so many rounds at most, to the first share of the accuracy; exponents
-  !! change by no more than the second in their last round, or than the least.
+  !! are wrong by no more than the second for what their iterations leave, or than the least.
   integer, parameter :: most_rounds = 6
-  real(wp), parameter :: enough = 0.1_wp, solved_to = 1.0e-2_wp, least_change = 1.0e-13_wp
+  real(wp), parameter :: enough = 0.1_wp, solved_to = 3.0e-2_wp, least_change = 1.0e-13_wp
 
   !> Turns below this are 0; real multipliers less apart are one.
   real(wp), parameter :: on_axis = 1.0e-9_wp, solved_to_turns = 1.0e-7_wp
@@ -48,20 +52,28 @@ module critical_speeds
   !> Exponents that are farther from a multiple than this are not those of the crossing.
   real(wp), parameter :: far = 0.05_wp
 
+  !> Critical speeds have no larger relative error, and are no farther in turns from the crossing of
+  !! the slow motion.
+  real(wp), parameter :: most_error = 0.1_wp, far_from_crossing = 0.25_wp
+
   !> Multipliers that are real are looked at this far from the middle, times their distance; at
   !! least as for this one, in turns.
   real(wp), parameter :: outside = 3.0_wp, narrow = 1.0e-5_wp
 
-  !> The ends of intervals in which turns would be more than this are looked for in so many rounds.
-  real(wp), parameter :: wide_enough = 1.0e-4_wp
-  integer, parameter :: rounds_of_ends = 2
+  !> The ends of intervals in which turns would be more than this are solved for; turns above the
+  !! second are on the other side of the circle.
+  real(wp), parameter :: wide_enough = 1.0e-4_wp, other_side = 0.3_wp
+
+  !> Crossings of slow motions are looked for outside of the speeds asked for, too, by this share of
+  !! them: the critical speed may be inside.
+  real(wp), parameter :: beyond = 1.0e-3_wp
 
   !> The second solution of an excitation has orders and samples above those of the first.
   integer, parameter :: orders_above = 2
 
-  !> Estimated errors are differences of two solutions times the first, last changes of exponents
-  !! times the second; none is stated below rounding.
-  real(wp), parameter :: safety = 2.0_wp, many = 10.0_wp, rounding = 1.0e-9_wp
+  !> Estimated errors are differences of two solutions times the first, what iterations leave
+  !! of exponents times the second; none is stated below rounding.
+  real(wp), parameter :: safety = 2.0_wp, many = 3.0_wp, rounding = 1.0e-9_wp
 
   !> A crossing on its way to a critical speed.
   type :: candidate_t
@@ -71,6 +83,7 @@ module critical_speeds
     integer :: line = 0
     real(wp) :: centre(2) = 0.0_wp   !! of its exponents on both levels, per radian of the crank
     real(wp) :: square(2) = 0.0_wp   !! of their distance from it; less than 0: it is imaginary
+    real(wp) :: change = 0.0_wp      !! what iterations leave of them, times `many`
     integer :: level(2) = 0          !! numbers of the levels of both solutions
     logical :: found = .false.
   end type candidate_t
@@ -104,18 +117,23 @@ contains
     integer, intent(out) :: left_out                 !! hardly excited
     type(error_t), allocatable, intent(out) :: error !! why there is nothing
 
+    type(stability_request_t) :: wider
     type(level_slot_t), allocatable :: levels(:)
     type(crossing_t), allocatable :: crossing(:)
     type(candidate_t), allocatable :: candidate(:)
-    real(wp), allocatable :: rough(:)
+    real(wp), allocatable :: rough(:), at_rest(:)
     integer :: i
 
     allocate (levels(0))
     left_out = 0
-    call find_crossings(structure, request, frequency, threads, store, levels, crossing, gap, &
-      error)
+    wider = request
+    wider%speed = sign([minval(abs(request%speed))*(1.0_wp - beyond), maxval(abs( &
+      request%speed))*(1.0_wp + beyond)], request%speed(1))
+    call find_crossings(structure, wider, frequency, threads, store, levels, crossing, gap, error)
     if (allocated(error)) return
-    allocate (candidate(size(crossing)), rough(size(crossing)))
+    gap = pack(gap, gap%speed(2) > minval(abs(request%speed)) .and. gap%speed(1) < &
+      maxval(abs(request%speed)))
+    allocate (candidate(size(crossing)), rough(size(crossing)), at_rest(size(crossing)))
     do i = 1, size(crossing)
       candidate(i)%crossing = crossing(i)
       candidate(i)%speed = crossing(i)%speed
@@ -127,11 +145,14 @@ contains
     end do
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
     do i = 1, size(candidate)
-      call find_rough(request, levels(candidate(i)%level(1))%level, candidate(i), rough(i))
+      call find_rough(request, levels(candidate(i)%level(1))%level, candidate(i), rough(i), &
+        at_rest(i))
     end do
     !$omp end parallel do
-    candidate = pack(candidate, rough >= hardly_excited*maxval(rough))
-    left_out = size(crossing) - size(candidate)
+    left_out = count((rough < hardly_excited*maxval(rough) .or. rough <= of_rounding*at_rest) &
+      .and. .not. is_outside(candidate%speed))
+    candidate = pack(candidate, rough >= hardly_excited*maxval(rough) .and. rough > &
+      of_rounding*at_rest)
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
     do i = 1, size(candidate)
       call refine_speed(request, levels(candidate(i)%level(1))%level, &
@@ -139,9 +160,10 @@ contains
     end do
     !$omp end parallel do
     do i = 1, size(candidate)
-      if (.not. candidate(i)%found) gap = [gap, gap_t(spread(candidate(i)%crossing%speed, 1, 2))]
+      if (candidate(i)%found .or. is_outside(candidate(i)%crossing%speed)) cycle
+      gap = [gap, gap_t(spread(candidate(i)%crossing%speed, 1, 2))]
     end do
-    candidate = pack(candidate, candidate%found)
+    candidate = pack(candidate, candidate%found .and. .not. is_outside(candidate%speed))
     allocate (critical(size(candidate)))
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
     do i = 1, size(candidate)
@@ -153,6 +175,16 @@ contains
     critical = pack(critical, critical%excitation >= least_excited*maxval(critical%excitation) &
       .or. [(allocated(critical(i)%fault), i=1, size(critical))])
     left_out = left_out + size(candidate) - size(critical)
+
+  contains
+
+    !> Whether a speed is not one of those asked for.
+    elemental logical function is_outside(speed)
+      real(wp), intent(in) :: speed
+
+      is_outside = speed < minval(abs(request%speed)) .or. speed > maxval(abs(request%speed))
+    end function is_outside
+
   end subroutine find_critical_speeds
 
   !> Finds or makes the levels of both solutions of an excitation.
@@ -186,12 +218,12 @@ contains
     end do
   end subroutine find_levels
 
-  !> The excitation by the slow motion alone.
-  subroutine find_rough(request, level, candidate, excitation)
+  !> The excitation by the slow motion alone, and the deflection under the same loads at rest.
+  subroutine find_rough(request, level, candidate, excitation, at_rest)
     type(stability_request_t), intent(in) :: request
     type(level_t), intent(in) :: level
     type(candidate_t), intent(in) :: candidate
-    real(wp), intent(out) :: excitation !! [m]
+    real(wp), intent(out) :: excitation, at_rest !! [m]
 
     real(wp), allocatable :: growth(:, :, :), steady(:, :, :)
     type(error_t), allocatable :: error
@@ -200,6 +232,7 @@ contains
       damping_of(request%damping, level%grid), request%terms, candidate%centre(1), &
       candidate%square(1), huge(1.0_wp), growth, steady, error)
     excitation = huge(1.0_wp)
+    at_rest = maxval(sampled_deflections(level%grid, load_at_speed(level%grid, candidate%speed)))
     if (allocated(error)) return
     excitation = maxval(sampled_deflections(level%grid, growth(:, :, 1)))
   end subroutine find_rough
@@ -243,8 +276,11 @@ contains
     candidate%centre = [rough%centre, here%centre]
     candidate%square = [rough%apart, here%apart]**2 - [rough%turns, here%turns]**2
     candidate%speed_error = max(rounding, candidate%speed_error/(abs(slope)*here%speed))
+    candidate%change = many*max(rough%change, here%change)
     candidate%line = nint(here%mean/here%speed)
-    candidate%found = candidate%line > 0
+    ! What went far from the crossing is not solved for.
+    candidate%found = candidate%line > 0 .and. candidate%speed_error <= most_error .and. &
+      abs(slope*(candidate%speed - candidate%crossing%speed)) <= far_from_crossing
 
   contains
 
@@ -289,8 +325,13 @@ contains
         call try_speed(request, level, candidate, candidate%speed + (2*i - 3)*wide, side(i))
       end do
       if (.not. all(side%found)) return
-      if (all(abs(side%turns) > 0.0_wp)) exit
-      wide = 2.0_wp*wide
+      if (any(abs(side%turns) > other_side)) then
+        wide = 0.6_wp*wide
+      else if (all(abs(side%turns) > 0.0_wp)) then
+        exit
+      else
+        wide = 2.0_wp*wide
+      end if
     end do
     centre = 0.5_wp*sum(side%centre)
     call complete(centre, inside)
@@ -302,16 +343,40 @@ contains
       ends = candidate%speed - 0.5_wp*tilt/bend + [-half, half]
     end associate
     ! The parabola is not quite one.
-    do round = 1, merge(rounds_of_ends, 0, half*abs(slope) > wide_enough)
+    if (half*abs(slope) > wide_enough) then
       do i = 1, 2
-        call try_speed(request, level, candidate, ends(i), at_end)
-        if (.not. at_end%found .or. abs(at_end%turns) > far) cycle
-        call complete(centre, at_end)
-        ends(i) = ends(i) - (at_end%turns**2 - at_end%apart**2)/(bend*(2*i - 3)*(ends(2) - ends(1)))
+        call solve_end(ends(i), bend*(2*i - 3)*2.0_wp*half)
       end do
-    end do
+    end if
     candidate%speed = 0.5_wp*(ends(1) + ends(2))
     candidate%speed_error = candidate%speed_error + 0.5_wp*abs(slope)*(ends(2) - ends(1))
+
+  contains
+
+    !> Solves for an end, by secants.
+    subroutine solve_end(at, rate)
+      real(wp), intent(inout) :: at !! about there
+      real(wp), intent(in) :: rate  !! of the square of turns
+
+      real(wp) :: value, before, steep, step
+
+      steep = rate
+      step = 0.0_wp
+      do round = 1, most_rounds
+        call try_speed(request, level, candidate, at, at_end)
+        if (.not. at_end%found .or. abs(at_end%turns) > other_side) return
+        call complete(centre, at_end)
+        value = at_end%turns**2 - at_end%apart**2
+        if (round > 1 .and. (value - before)/step*rate > 0.0_wp) steep = (value - before)/step
+        before = value
+        step = -value/steep
+        ! Not beyond the middle, nor far away.
+        if (abs(step) > 0.5_wp*half) return
+        at = at + step
+        if (abs(step) <= enough*request%accuracy*at) return
+      end do
+    end subroutine solve_end
+
   end subroutine find_middle
 
   !> The exponent of the crossing at a speed near it.
@@ -348,10 +413,12 @@ contains
       call find_floquet_modes(level%grid, plan, level%basis(slow), spectrum%motion, speed, &
         damping, request%terms, max(solved_to*request%accuracy/two_pi, least_change), &
         spectrum%mode, wanted, mode)
+      if (any(mode%change > far)) exit attempt
       trial%turns = abs(aimag(mode(1)%exponent))
       trial%change = maxval(mode%change)
       if (any(damping > 0.0_wp)) trial%centre = sum(real(mode%exponent))/size(mode)
-      if (trial%turns <= on_axis) then
+      ! A number that is real within its error is real.
+      if (trial%turns <= max(on_axis, many*trial%change)) then
         trial%turns = 0.0_wp
         trial%apart = abs(real(mode(1)%exponent) - trial%centre)
         if (any(damping > 0.0_wp) .and. trial%apart < solved_to_turns) trial%alone = &
@@ -404,6 +471,9 @@ contains
     critical%amplitude = fine(2)
     critical%error = max(rounding, maxval((safety*abs(fine - rough) + change)/max(fine, &
       tiny(1.0_wp))))
+    ! The amplitude is that of the resonance over the growth.
+    if (fine(2) > 0.0_wp) critical%error = critical%error + candidate%change/max( &
+      abs(candidate%centre(2)), candidate%change)
     if (fine(2) <= 0.0_wp .and. any(request%damping%kind /= no_damping)) call set_error( &
       critical%fault, error_of_numerics, "vibrations grow by themselves: there is no steady state")
 

@@ -17,7 +17,8 @@ module elastic_equations
   public :: elastic_terms_t, inertia_force, inertia_parts, slope_force, swept_force, &
     apply_equation, equation_parts, load_at_speed, functions_of, geometric_force, slopes_of, &
     mass_force, times_mass, times_swap, spread_over_unknowns, unit_geometric_force, elongation_of, &
-    deformations_of, damper_force, strained_functions, moved_functions, strain_rates
+    add_damping_parts, deformations_of, damper_force, strained_functions, moved_functions, &
+    strain_rates
 
   !> Terms of the equation and of the torque; false: omitted.
   type :: elastic_terms_t
@@ -779,21 +780,31 @@ contains
     real(wp), intent(in) :: y(:, :)            !! (samples, unknowns) [√J]
     real(wp), intent(out) :: parts(:, :, 0:)   !! (samples, unknowns, power) [√J]
 
-    real(wp), allocatable :: first(:, :)
-
     call inertia_parts(grid, plan, terms, y, parts)
     parts = speed**2*parts
     parts(:, :, 0) = parts(:, :, 0) + y
-    if (any(damping > 0.0_wp)) then
-      allocate (first, mold=y)
-      call derivatives(plan, y, first)
-      call add_damping(grid, plan, speed, damping, y, first, parts(:, :, 0))
-      call add_own_damping(grid, speed, damping, y, parts(:, :, 1))
-      if (allocated(grid%weighted)) call add_to_border(grid, speed, damping, deformations_of(grid, &
-        y), parts(:, :, 1))
-    end if
+    if (any(damping > 0.0_wp)) &
+      call add_damping_parts(grid, plan, speed, damping, y, parts(:, :, :1))
     if (terms%axial) call geometric_force_at(grid, speed, y, parts(:, :, 0))
   end subroutine equation_parts
+
+  !> Adds what damping has in them: `ω C y'` and `ω C y`.
+  subroutine add_damping_parts(grid, plan, speed, damping, y, parts)
+    type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan     !! for its samples
+    real(wp), intent(in) :: speed                !! ω2 [rad/s]
+    real(wp), intent(in) :: damping(:)           !! (unknowns) c [s], see `damping_of`
+    real(wp), intent(in) :: y(:, :)              !! (samples, unknowns) [√J]
+    real(wp), intent(inout) :: parts(:, :, 0:)   !! (samples, unknowns, power 0 and 1) [√J]
+
+    real(wp) :: first(size(y, 1), size(y, 2))
+
+    call derivatives(plan, y, first)
+    call add_damping(grid, plan, speed, damping, y, first, parts(:, :, 0))
+    call add_own_damping(grid, speed, damping, y, parts(:, :, 1))
+    if (allocated(grid%weighted)) call add_to_border(grid, speed, damping, deformations_of(grid, &
+      y), parts(:, :, 1))
+  end subroutine add_damping_parts
 
   !> The right side of the equation [√J].
   pure function load_at_speed(grid, speed) result(load)

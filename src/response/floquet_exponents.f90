@@ -13,7 +13,7 @@
 !! their partner at −σ̄.
 module floquet_exponents
   use constants, only: two_pi
-  use elastic_equations, only: elastic_terms_t, equation_parts
+  use elastic_equations, only: add_damping_parts, elastic_terms_t, equation_parts
   use errors, only: error_t
   use fourier_transform, only: fourier_plan_t
   use kinds, only: wp
@@ -51,6 +51,11 @@ module floquet_exponents
   !> No exponent differs more than this from its first approximation.
   real(wp), parameter :: farthest = 0.02_wp
 
+  !> Results that are better than those before by less than this are not kept, and so many rounds
+  !! without a better one are the last.
+  real(wp), parameter :: better_by = 0.7_wp
+  integer, parameter :: most_idle = 25
+
   !> No smaller change of the square of a difference of exponents can be asked for.
   real(wp), parameter :: least_square_change = 1.0e-14_wp
 
@@ -74,7 +79,8 @@ module floquet_exponents
   type :: floquet_mode_t
     complex(wp) :: exponent = (0.0_wp, 0.0_wp)  !! σ, per radian of the crank; its imaginary part is
                                                 !! vibrations per turn, between 0 and 1/2
-    real(wp) :: change = 0.0_wp                 !! of the exponent in the last round
+    real(wp) :: change = 0.0_wp                 !! of the exponent in the last rounds, or the error
+                                                !! that its motion allows
     integer :: applications = 0                 !! of the equation, to complex motions
     real(wp) :: frequency = 0.0_wp              !! of its shape over the turn,
                                                 !! `√(∮ zᴴz / ∮ zᴴM z)` [rad/s]
@@ -270,10 +276,12 @@ contains
 
     type(space_t) :: space
     complex(wp), allocatable :: values(:), vectors(:, :), weights(:), partner_weights(:)
-    complex(wp) :: fixed, before, expected, followed, followed_partner, second
+    complex(wp) :: fixed, expected, followed, followed_partner, second
     complex(wp) :: square, square_before
-    real(wp) :: correction(grid%samples, 2*grid%unknowns)
-    integer :: number, partner, round
+    real(wp), dimension(grid%samples, 2*grid%unknowns) :: residual, correction
+    real(wp) :: error
+    complex(wp) :: here
+    integer :: idle, number, partner, round
     logical :: grew, is_damped
 
     is_damped = any(damping > 0.0_wp)
@@ -282,8 +290,12 @@ contains
     if (present(pair)) pair%change = huge(1.0_wp)
     fixed = mode%exponent + shift
     expected = mode%exponent
-    if (present(known)) expected = known%exponent
+    if (present(known)) then
+      expected = known%exponent
+      if (known%change < shift) fixed = expected + shift
+    end if
     square = 0.0_wp
+    idle = 0
     call start
     do round = 1, most_rounds
       if (space%is_harmonic) then
@@ -299,39 +311,49 @@ contains
       partner = number
       if (.not. is_damped .and. abs(real(followed)) > off_circle) &
         partner = minloc(abs(values + conjg(followed)), dim=1)
+      if (is_damped) partner = maxloc(abs(matmul(conjg(matmul(slope_of_form(followed), weights)), &
+        vectors)), dim=1, mask=abs(aimag(values - followed)) < together)
       if (present(pair)) partner = minloc(distance(values, vectors, second), dim=1, &
         mask=abs(values - values(number)) > as_good_as)
       if (partner == 0) return
       followed_partner = values(partner)
       partner_weights = vectors(:, partner)
-      before = mode%exponent
-      mode%exponent = followed
+      here = followed
       if (present(pair)) pair%exponent = [followed, followed_partner]
-      if (space%is_harmonic .and. .not. is_damped) call take_value_of_form
-      if (round > 1) mode%change = abs(mode%exponent - before)
+      if (space%is_harmonic .and. .not. (is_damped .and. present(pair))) call take_value_of_form
+      call find_residual(here, weights, residual)
+      call approximate(residual, correction)
+      error = doubt()
+      idle = idle + 1
+      if (error < better_by*mode%change .or. error <= tolerance .or. present(pair)) then
+        mode%exponent = here
+        mode%change = error
+        idle = 0
+        call describe(weights)
+      end if
       if (present(pair)) then
         square_before = square
         square = (pair%exponent(1) - pair%exponent(2))**2
         pair%change = abs(square - square_before)
         if (round > 1 .and. pair%change <= max(pair%tolerance, least_square_change)) exit
-      else if (mode%change <= tolerance) then
+      else if (error <= tolerance .or. idle == most_idle) then
         exit
       end if
       if (round == rounds_of_projection(merge(2, 1, is_damped))) then
         call gather(weights, partner_weights)
+        if (.not. present(pair) .and. mode%change < shift) fixed = mode%exponent + shift
         call make_harmonic
       end if
       if (space%number > most_vectors - 2) call gather(weights, partner_weights)
       grew = .false.
       if (partner /= number) then
-        call correct(values(partner), partner_weights)
         call add_vector(correction, grew)
+        call find_residual(followed_partner, partner_weights, residual)
+        call approximate(residual, correction)
       end if
-      call correct(mode%exponent, weights)
       call add_vector(correction, grew)
       if (.not. grew) exit
     end do
-    call describe(weights)
     if (present(pair)) call remember
 
   contains
@@ -422,7 +444,7 @@ contains
       call find_pencil_modes(small(:p, :p, :), fixed, roots, ignored)
       if (size(roots) == 0) return
       n = minloc(abs(roots - followed), dim=1)
-      mode%exponent = roots(n)
+      here = roots(n)
       if (.not. present(pair) .or. size(roots) == 1) return
       p = minloc(abs(roots - followed_partner), dim=1, mask=abs(roots - roots(n)) > as_good_as)
       if (p > 0) pair%exponent = roots([n, p])
@@ -430,16 +452,10 @@ contains
 
     !> Keeps both modes for a speed near by.
     subroutine remember
-      integer :: i
-
       if (allocated(pair%known)) deallocate (pair%known)
       allocate (pair%known(grid%samples, 2*grid%unknowns, 2))
-      pair%known = 0.0_wp
-      do i = 1, size(weights)
-        pair%known(:, :, 1) = pair%known(:, :, 1) + times(weights(i), space%vector(:, :, i))
-        pair%known(:, :, 2) = pair%known(:, :, 2) + times(partner_weights(i), &
-          space%vector(:, :, i))
-      end do
+      pair%known(:, :, 1) = motion_of(weights)
+      pair%known(:, :, 2) = motion_of(partner_weights)
     end subroutine remember
 
     !> Begins the space anew with the mode, its partner and the modes near.
@@ -537,6 +553,68 @@ contains
       end do
     end subroutine add_solved
 
+    !> How wrong the exponent may be by the residual r of its motion, which lacks e, about the
+    !! correction. With w, the motion of the adjoint equation, and v, that of the partner, which is
+    !! about w, the error is `wᴴr/(wᴴL'(σ) z)`, and since `vᴴr = 0` and r is `−L(σ) e` to first
+    !! order, `wᴴr = (L(σ)ᴴv)ᴴe`. Products of all samples count with their absolute values. Where
+    !! multipliers meet the error is the root of a quadratic equation.
+    function doubt()
+      real(wp) :: doubt
+
+      real(wp) :: motion(grid%samples, 2*grid%unknowns), product, slope, bend
+
+      motion = motion_of(weights)
+      product = sum_of_absolute_products(adjoint_residual(), correction - times( &
+        product_of(motion, correction), motion))
+      slope = abs(dot_product(partner_weights, matmul(slope_of_form(here), weights)))
+      bend = abs(dot_product(partner_weights, matmul(space%form(:space%number, :space%number, 2), &
+        weights)))
+      if (slope**2 > 4.0_wp*bend*product) then
+        doubt = 2.0_wp*product/(slope + sqrt(slope**2 - 4.0_wp*bend*product))
+      else
+        doubt = sqrt(product/max(bend, tiny(1.0_wp)))
+      end if
+    end function doubt
+
+    !> A vector of the space.
+    function motion_of(weights) result(z)
+      complex(wp), intent(in) :: weights(:) !! of its vectors
+      real(wp) :: z(grid%samples, 2*grid%unknowns)
+
+      integer :: i
+
+      z = 0.0_wp
+      do i = 1, size(weights)
+        z = z + times(weights(i), space%vector(:, :, i))
+      end do
+    end function motion_of
+
+    !> `L(σ)ᴴ v` of the partner's motion v: L at −σ̄, with damping that drives.
+    function adjoint_residual() result(left)
+      real(wp) :: left(grid%samples, 2*grid%unknowns)
+
+      real(wp) :: v(grid%samples, 2*grid%unknowns), parts(grid%samples, 2*grid%unknowns, 0:1)
+      integer :: n
+
+      call find_residual(-conjg(here), partner_weights, left)
+      if (.not. is_damped) return
+      n = grid%unknowns
+      v = motion_of(partner_weights)
+      parts = 0.0_wp
+      call add_damping_parts(grid, plan, speed, damping, v(:, :n), parts(:, :n, :))
+      call add_damping_parts(grid, plan, speed, damping, v(:, n + 1:), parts(:, n + 1:, :))
+      left = left - 2.0_wp*(parts(:, :, 0) - times(conjg(here), parts(:, :, 1)))
+    end function adjoint_residual
+
+    !> `vᴴL'(σ) v`.
+    pure function slope_of_form(exponent) result(slope)
+      complex(wp), intent(in) :: exponent
+      complex(wp) :: slope(space%number, space%number)
+
+      slope = space%form(:space%number, :space%number, 1) + 2.0_wp*exponent*space%form( &
+        :space%number, :space%number, 2)
+    end function slope_of_form
+
     !> Adds a vector to the space, unless it is in it.
     subroutine add_vector(new, added)
       real(wp), intent(in) :: new(:, :)
@@ -599,12 +677,12 @@ contains
         z_imaginary, y(:, n + 1:))
     end subroutine approximate
 
-    !> The correction of a vector of the space, from what it leaves in the equation.
-    subroutine correct(exponent, weights)
+    !> What a vector of the space leaves in the equation.
+    subroutine find_residual(exponent, weights, residual)
       complex(wp), intent(in) :: exponent
       complex(wp), intent(in) :: weights(:) !! of the vectors
+      real(wp), intent(out) :: residual(:, :)
 
-      real(wp) :: residual(grid%samples, 2*grid%unknowns)
       integer :: i, p
 
       residual = 0.0_wp
@@ -613,8 +691,7 @@ contains
           residual = residual + times(weights(i)*exponent**p, space%parts(:, :, p, i))
         end do
       end do
-      call approximate(residual, correction)
-    end subroutine correct
+    end subroutine find_residual
 
     !> Frequency and action of the mode.
     subroutine describe(weights)
@@ -665,6 +742,17 @@ contains
     product = cmplx(sum_of_products(z, f), sum_of_products(z(:, :n), f(:, n + 1:)) - &
       sum_of_products(z(:, n + 1:), f(:, :n)), wp)
   end function product_of
+
+  !> `Σ |z| |f|`.
+  pure function sum_of_absolute_products(z, f) result(product)
+    real(wp), intent(in) :: z(:, :), f(:, :)
+    real(wp) :: product
+
+    integer :: n
+
+    n = size(z, 2)/2
+    product = sum(sqrt((z(:, :n)**2 + z(:, n + 1:)**2)*(f(:, :n)**2 + f(:, n + 1:)**2)))
+  end function sum_of_absolute_products
 
   !> `c f`.
   pure function times(c, f) result(product)

@@ -210,6 +210,8 @@ contains
               new%slope = change/(there%speed - here%speed)
               new%angle = one
               new%mode = usual_mode(j, m)
+              ! Numbers may be exchanged next to it.
+              if (new%mode > request%modes) new%mode = min(one%mode, other%mode)
               call find_level(here%speed, new%level)
               if (allocated(error)) return
               crossing = [crossing, new]

@@ -40,6 +40,7 @@ FAMILIES = [
     ("estimates of responses", "tests/stress/estimates_response.py 1 300 --program {program}"),
     ("estimates of validity", "tests/stress/estimates_response.py 1 200 --validity --program {program}"),
     ("estimates of transients", "tests/stress/estimates_transient.py 1 60 --program {program}"),
+    ("estimates of running linkages", "tests/stress/estimates_running.py 1 400 --program {program}"),
     ("accuracies", "tests/stress/compare_accuracies.py {program} --frequencies 20000 --seed 1"),
     ("reports together", "tests/stress/report_sets.py 1 150 --program build/debug/flexmech"),
     ("stress", "tests/stress/run_stress.py {program} --every 4 --no-figures"),
