@@ -50,6 +50,9 @@ module exponent_meetings
   !! the third.
   real(wp), parameter :: bends_over = 0.1_wp, of_width = 2.0e-5_wp, reach = 1.0e-2_wp
 
+  !> Places a little beside one, in terms of how near they have to be.
+  real(wp), parameter :: beside = 0.3_wp
+
   !> Most places are looked at so many times; widths by which one is left at most, and share of it
   !! for a peak with damping.
   integer, parameter :: most_rounds = 14
@@ -113,7 +116,7 @@ contains
     goal = about
     scale = 0.5_wp*(about(3) - about(1))
     do i = 1, 3
-      call add(goal(i))
+      call add(i)
       if (.not. good) return
     end do
     do round = 1, most_rounds
@@ -128,7 +131,7 @@ contains
       do i = 1, 3
         if (i /= 2 .and. .not. exists) cycle
         if (is_known(i)) cycle
-        call add(goal(i))
+        call add(i)
         if (.not. good) return
         added = .true.
       end do
@@ -137,7 +140,7 @@ contains
     good = .not. added
     if (.not. good .or. .not. exists) return
     ! The value itself, where a parabola is not good enough.
-    if (nearest_to(goal(2)) > of_width*bends_over*abs(goal(2))) call add(goal(2))
+    if (nearest_to(goal(2)) > of_width*bends_over*abs(goal(2))) call add(2)
     if (.not. good) return
     interval%from = goal(1)
     interval%at = goal(2)
@@ -152,15 +155,19 @@ contains
       integer, intent(in) :: i
       logical :: known
 
-      real(wp) :: apart
-
-      apart = nearest_to(goal(i))
-      if (i == 2) then
-        known = apart <= reach*scale
-      else
-        known = apart*(scale + apart) <= (tolerance + of_width*scale)*bends_over*abs(goal(i))
-      end if
+      known = nearest_to(goal(i)) <= near_to(i)
     end function is_known
+
+    !> How near a sample is to be to a goal.
+    function near_to(i) result(near)
+      integer, intent(in) :: i
+      real(wp) :: near
+
+      near = reach*scale
+      ! near (scale + near) = product
+      if (i /= 2) near = 0.5_wp*(sqrt(scale**2 + 4.0_wp*(tolerance + of_width*scale)*bends_over* &
+        abs(goal(i))) - scale)
+    end function near_to
 
     !> Distance of the nearest sample.
     function nearest_to(place) result(apart)
@@ -170,17 +177,31 @@ contains
       apart = minval(abs(samples%place(:samples%number) - place))
     end function nearest_to
 
-    subroutine add(place)
+    !> Adds a sample near a goal: a little beside it where there is none, as a third multiplier may
+    !! pass there.
+    subroutine add(i)
+      integer, intent(in) :: i
+
+      integer :: attempt
+
+      do attempt = 0, 2
+        call add_at(goal(i) + attempt*beside*(-1)**attempt*min(near_to(i), scale))
+        if (good) return
+      end do
+    end subroutine add
+
+    subroutine add_at(place)
       real(wp), intent(in) :: place
 
-      good = samples%number < size(samples%place)
+      integer :: n
+
+      n = samples%number + 1
+      good = n <= size(samples%place)
       if (.not. good) return
-      samples%number = samples%number + 1
-      associate (n => samples%number)
-        samples%place(n) = place
-        call pair%evaluate(place, samples%total(n), samples%square(n), good)
-      end associate
-    end subroutine add
+      samples%place(n) = place
+      call pair%evaluate(place, samples%total(n), samples%square(n), good)
+      if (good) samples%number = n
+    end subroutine add_at
 
   end subroutine find_interval
 

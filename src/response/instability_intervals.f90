@@ -224,10 +224,11 @@ contains
           call open_pair(request, level, slow_count_of(level%grid, request%modes), meeting, &
             .true., pair(k))
         end associate
-        about = [meeting%from, meeting%at, meeting%to]
-        if (search%interval%growth > 0.0_wp) about = [search%interval%from, search%interval%at, &
-          search%interval%to]
-        if (k == 2) then
+        if (k == 1 .and. search%interval%growth > 0.0_wp) then
+          about = [search%interval%from, search%interval%at, search%interval%to]
+        else if (k == 1) then
+          about = first_places(meeting, pair(1))
+        else
           call begin_with(pair(1), pair(2))
           about = [of(1)%from, of(1)%at, of(1)%to]
         end if
@@ -256,8 +257,10 @@ contains
         interval%error = safety*max(abs(of(2)%from - of(1)%from), abs(of(2)%to - of(1)%to)) + &
           least_error()*interval%at + (of_width + doubt)*(interval%to - interval%from)
         interval%kind = unstable_combination
-        if (meeting%is_own) interval%kind = merge(unstable_flip, unstable_fold, &
-          abs(meeting%plane(1)%turns) > 0.25_wp)
+        associate (here => meeting%plane(minloc(abs(meeting%plane%speed - interval%at), dim=1)))
+          if (meeting%is_own) interval%kind = merge(unstable_flip, unstable_fold, abs(here%turns) &
+            > 0.25_wp)
+        end associate
         interval%mode = [minval(pair(2)%number), maxval(pair(2)%number)]
         search%pending = search%order + 2 <= most_order .and. search%at < size(sample_numbers) &
           .and. (interval%error > request%accuracy*interval%at .or. &
@@ -266,6 +269,23 @@ contains
       search%order = search%order + 2
       search%at = min(search%at + 1, size(sample_numbers))
     end subroutine measure_interval
+
+    !> Edges and peak by the slow motion, whose speeds cost little.
+    function first_places(meeting, pair) result(places)
+      type(meeting_t), intent(in) :: meeting
+      type(meeting_pair_t), intent(inout) :: pair
+      real(wp) :: places(3)
+
+      type(interval_t) :: of
+      logical :: good
+
+      places = [meeting%from, meeting%at, meeting%to]
+      if (pair%is_damped) return
+      pair%whole = .false.
+      call find_interval(pair, places, least_error()*meeting%at, of, good)
+      pair%whole = .true.
+      if (good .and. of%growth > 0.0_wp) places = [of%from, of%at, of%to]
+    end function first_places
 
     !> No error is stated smaller than this.
     pure function least_error() result(least)

@@ -9,7 +9,7 @@ module interval_checks
   use multiplier_meetings, only: add_gap
   use stability, only: find_stability
   use stability_types, only: exponent_t, instability_t, intervals_t, is_unstable, &
-    stability_request_t, stability_t, unstable_combination
+    speed_stability_t, stability_request_t, stability_t, unstable_combination
   use structures, only: structure_t
   use text, only: to_string
   implicit none (type, external)
@@ -20,8 +20,9 @@ module interval_checks
   !> Between intervals there is a speed at every tenth, at least in the middle.
   real(wp), parameter :: between = 0.1_wp
 
-  !> The growth at one speed and the largest of an interval agree to this share beside their errors.
-  real(wp), parameter :: same_growth = 1.0e-3_wp
+  !> The growth at one speed is at least these shares of the largest of the interval, beside errors:
+  !! at its place, and at so much of the width beside it.
+  real(wp), parameter :: at_peak = 0.999_wp, at_side = 0.5_wp, beside = 0.15_wp
 
   !> Exponents are found to this share of the least growth that counts.
   real(wp), parameter :: in_growth = 0.1_wp
@@ -39,28 +40,39 @@ contains
     type(intervals_t), intent(inout) :: found        !! gets intervals and gaps
     type(error_t), allocatable, intent(out) :: error !! why nothing is confirmed
 
-    type(stability_request_t) :: single
     type(stability_t) :: at
     type(instability_t), allocatable :: confirmed(:)
     real(wp), allocatable :: speed(:), edge(:, :)
-    integer, allocatable :: mode(:)
+    integer, allocatable :: others(:)
+    logical, allocatable :: known(:)
     integer :: i, k, n
 
     n = size(intervals)
     call list_speeds
-    single = request
-    single%speed = sign(speed, request%speed(1))
-    single%accuracy = in_growth*request%least_growth
-    call find_stability(structure, single, threads, store, at, error)
-    if (allocated(error)) return
-    ! An interrupted run leaves speeds without exponents.
-    if (was_interrupted()) return
     confirmed = intervals
-    do i = 1, n
-      call confirm(i)
-    end do
+    call find_exponents(speed)
+    if (allocated(error) .or. was_interrupted()) return
+    known = [(is_confirmed(i, at%at_speed(i), at_peak), i=1, n)]
     do k = n + 1, size(speed)
       call look_for_others(k)
+    end do
+    ! Exponents may not be found at one speed.
+    others = pack([(i, i=1, n)], .not. known)
+    if (size(others) > 0) then
+      call find_exponents(intervals(others)%at + beside*(intervals(others)%to - &
+        intervals(others)%from))
+      if (allocated(error) .or. was_interrupted()) return
+      do k = 1, size(others)
+        known(others(k)) = is_confirmed(others(k), at%at_speed(k), at_side)
+      end do
+    end if
+    do i = 1, n
+      if (known(i) .and. confirmed(i)%mode(2) <= request%modes) then
+        found%interval = [found%interval, confirmed(i)]
+      else if (.not. known(i) .and. intervals(i)%mode(2) <= request%modes) then
+        call add_gap(intervals(i)%from, intervals(i)%to, "the interval is not confirmed at "// &
+          to_string(intervals(i)%at, 6)//" rad/s", found)
+      end if
     end do
 
   contains
@@ -88,36 +100,44 @@ contains
       end do
     end subroutine list_speeds
 
-    !> Confirms an interval by the exponents at its place.
-    subroutine confirm(i)
+    !> An interrupted run leaves speeds without exponents.
+    subroutine find_exponents(speeds)
+      real(wp), intent(in) :: speeds(:) !! |ω2| [rad/s]
+
+      type(stability_request_t) :: single
+
+      single = request
+      single%speed = sign(speeds, request%speed(1))
+      single%accuracy = in_growth*request%least_growth
+      call find_stability(structure, single, threads, store, at, error)
+    end subroutine find_exponents
+
+    !> Whether exponents at a speed confirm an interval; gets the numbers of its modes.
+    function is_confirmed(i, here, share) result(is)
       integer, intent(in) :: i
+      type(speed_stability_t), intent(in) :: here
+      real(wp), intent(in) :: share !! of the largest growth that is there at least
+      logical :: is
 
-      integer :: k
-      logical :: known
+      integer :: k, mode(2)
 
-      associate (interval => intervals(i), here => at%at_speed(i))
-        known = .not. allocated(here%error)
-        if (known) known = any(here%exponent%verdict == interval%kind)
-        if (known) then
-          k = minloc(abs(here%exponent%growth - interval%growth), dim=1, mask= &
-            here%exponent%verdict == interval%kind)
-          associate (exponent => here%exponent(k))
-            known = abs(exponent%growth - interval%growth) <= interval%growth_error + &
-              exponent%error + same_growth*interval%growth
-            mode = [exponent%mode, exponent%mode]
-            if (interval%kind == unstable_combination) mode(2) = exponent%partner
-            if (mode(2) == 0) mode = interval%mode
-            confirmed(i)%mode = [minval(mode), maxval(mode)]
-          end associate
-        end if
-        if (known) then
-          if (confirmed(i)%mode(1) <= request%modes) found%interval = [found%interval, confirmed(i)]
-        else if (interval%mode(1) <= request%modes) then
-          call add_gap(interval%from, interval%to, "the interval is not confirmed at "// &
-            to_string(interval%at, 6)//" rad/s", found)
-        end if
+      is = .not. allocated(here%error)
+      if (is) is = any(here%exponent%verdict == intervals(i)%kind)
+      if (.not. is) return
+      associate (growth => intervals(i)%growth)
+        k = minloc(abs(here%exponent%growth - growth), dim=1, mask=here%exponent%verdict == &
+          intervals(i)%kind)
+        associate (exponent => here%exponent(k))
+          is = exponent%growth >= share*growth - intervals(i)%growth_error - exponent%error .and. &
+            exponent%growth <= (2.0_wp - at_peak)*growth + intervals(i)%growth_error + &
+            exponent%error
+          mode = [exponent%mode, exponent%mode]
+          if (intervals(i)%kind == unstable_combination) mode(2) = exponent%partner
+          if (mode(2) == 0) mode = intervals(i)%mode
+          confirmed(i)%mode = [minval(mode), maxval(mode)]
+        end associate
       end associate
-    end subroutine confirm
+    end function is_confirmed
 
     !> Whether no vibration grows at a speed between intervals.
     subroutine look_for_others(k)

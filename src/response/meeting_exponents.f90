@@ -20,7 +20,7 @@ module meeting_exponents
 
   !> Two motions are those of the meeting if no more than this is left of them beside the plane at a
   !! speed near by, and their angles are as near as this to the mean one [turns].
-  real(wp), parameter :: most_left = 0.7_wp, near_enough = 0.35_wp
+  real(wp), parameter :: most_left = 0.9_wp, near_enough = 0.35_wp
 
   !> Exponents farther from each other than this are found each by itself, well enough.
   real(wp), parameter :: apart_enough = 0.03_wp
@@ -29,6 +29,9 @@ module meeting_exponents
   !! this share of the largest in the last round; it is not found where it changes by more than the
   !! second, or where the difference is farther than the third from that of the slow motion [turns].
   real(wp), parameter :: fine_change = 1.0e-5_wp, most_change = 1.0e-3_wp, farthest = 1.0e-2_wp
+
+  !> No smaller change of one exponent is asked for [turns].
+  real(wp), parameter :: least_change = 1.0e-12_wp
 
   !> Two multipliers that meet, by the slow motion.
   type :: meeting_t
@@ -141,8 +144,9 @@ contains
     logical, intent(out) :: good
 
     complex(wp) :: exponent(2)
-    integer :: mode(2), waves
-    logical :: conjugate(2)
+    real(wp) :: change
+    integer :: attempt, mode(2), waves
+    logical :: conjugate(2), each_first
 
     total = 0.0_wp
     square = 0.0_wp
@@ -154,19 +158,37 @@ contains
     call find_modes(self%spectrum, self%meeting%plane, place, mode, conjugate, good)
     if (.not. good) return
     self%number = self%spectrum%number(mode)
-    exponent = self%spectrum%mode(mode)%exponent
-    where (conjugate) exponent = conjg(exponent)
-    waves = nint(aimag(exponent(1) - exponent(2)))
-    exponent(2) = exponent(2) + cmplx(0.0_wp, waves, wp)
-    if (self%whole .and. abs(exponent(1) - exponent(2)) > apart_enough) then
-      call refine_each
-    else if (self%whole) then
-      call refine_both
+    call restore
+    ! Motions near by, or each by itself, may lead to other modes: then the other way.
+    if (self%whole) then
+      each_first = abs(exponent(1) - exponent(2)) > apart_enough
+      do attempt = 1, 3
+        call restore
+        if (attempt > 1 .and. allocated(self%pair%known)) deallocate (self%pair%known)
+        if (attempt == merge(1, 3, each_first)) then
+          call refine_each
+        else
+          call refine_both
+        end if
+        if (good) exit
+      end do
+    end if
+    if (self%whole .and. good) then
+      self%largest = max(self%largest, abs(exponent(1) - exponent(2))**2)
+      self%doubt = max(self%doubt, change/self%largest)
     end if
     total = sum(exponent)
     square = -(exponent(1) - exponent(2))**2
 
   contains
+
+    !> Exponents of the slow motion.
+    subroutine restore
+      exponent = self%spectrum%mode(mode)%exponent
+      where (conjugate) exponent = conjg(exponent)
+      waves = nint(aimag(exponent(1) - exponent(2)))
+      exponent(2) = exponent(2) + cmplx(0.0_wp, waves, wp)
+    end subroutine restore
 
     !> Exponents of the whole equation, each by itself.
     subroutine refine_each
@@ -175,7 +197,8 @@ contains
 
       call find_floquet_modes(self%level%grid, self%plan, self%level%basis(self%slow), &
         self%spectrum%motion, place, damping_of(self%request%damping, self%level%grid), &
-        self%request%terms, fine_change*self%largest/apart_enough, self%spectrum%mode, mode, found)
+        self%request%terms, max(0.25_wp*fine_change*abs(exponent(1) - exponent(2)), least_change), &
+        self%spectrum%mode, mode, found)
       better = found%exponent
       where (conjugate) better = conjg(better)
       better(2) = better(2) + cmplx(0.0_wp, nint(aimag(better(1) - better(2))), wp)
@@ -210,13 +233,12 @@ contains
     end subroutine refine_both
 
     !> Whether a difference is good enough.
-    subroutine check(difference, slow, change)
+    subroutine check(difference, slow, last_change)
       complex(wp), intent(in) :: difference, slow !! of exponents, that of the slow motion
-      real(wp), intent(in) :: change              !! of the square, in the last round
+      real(wp), intent(in) :: last_change         !! of the square, in the last round
 
-      self%largest = max(self%largest, abs(difference)**2)
-      self%doubt = max(self%doubt, change/self%largest)
-      good = change <= most_change*self%largest .and. abs(difference**2 - slow**2) <= &
+      change = last_change
+      good = change <= most_change*max(self%largest, abs(difference)**2) .and. abs(difference**2 - slow**2) <= &
         farthest*(2.0_wp*abs(slow) + farthest)
     end subroutine check
 

@@ -25,8 +25,12 @@ module multiplier_meetings
 
   !> Steps of the speed, in terms of it, and in which the fastest vibration wanted turns by no more
   !! than the second; most times one is halved.
-  real(wp), parameter :: step_share = 0.01_wp, step_turns = 0.15_wp
+  real(wp), parameter :: step_share = 0.01_wp, step_turns = 0.03_wp
   integer, parameter :: most_halvings = 9
+
+  !> Two intervals of one vibration that are nearer to each other than this share of the speed are
+  !! one.
+  real(wp), parameter :: for_a_moment = 4.0e-4_wp
 
   !> An interval is followed beyond the range by so many steps.
   integer, parameter :: most_beyond = 100
@@ -40,14 +44,22 @@ module multiplier_meetings
   !> Distance in turns of the places beside a meeting from which its growth is found.
   real(wp), parameter :: beside = 3.0e-4_wp
 
-  !> Vibrations below this share of the frequency of two that meet have smaller numbers.
-  real(wp), parameter :: surely_slower = 0.9_wp
+  !> Vibrations below this share of the frequency of two that meet have smaller numbers; those with
+  !! numbers larger than wanted by more than this are not wanted where they meet.
+  real(wp), parameter :: surely_slower = 0.8_wp
+  integer, parameter :: numbers_above = 2
+
+  !> Angles whose change differs by more than this share from what slopes say are not known between.
+  real(wp), parameter :: not_smooth = 0.3_wp
+
+  !> Places in an interval at which vibrations are numbered.
+  integer, parameter :: inside = 9
 
   !> Growth above this share of the least that counts is looked into.
   real(wp), parameter :: worth = 0.5_wp
 
   !> Edges are found to this share of the step in which they are, in no more steps than these.
-  real(wp), parameter :: near_edge = 1.0e-3_wp
+  real(wp), parameter :: near_edge = 2.0e-2_wp
   integer, parameter :: most_steps = 30
 
   !> Edges by the slow motion are right to this share of the speed.
@@ -69,6 +81,7 @@ module multiplier_meetings
     integer :: pair(2) = 0             !! vibrations at the station reached
     logical :: has_edge = .false.      !! its first edge is known
     logical :: is_wanted = .false.     !! both are at some station
+    integer :: least_number = huge(1)  !! of the greater of both, at any station
     real(wp) :: since = 0.0_wp         !! first station, if there is no edge
     type(meeting_t) :: meeting
   end type open_t
@@ -155,6 +168,9 @@ contains
       call add_gap(steps(i + 1)%left%speed, steps(k)%right%speed, trim(steps(k)%fault), found)
     end do
     call join
+    ! Edges by the slow motion are not far from where they are.
+    meetings = pack(meetings, meetings%from <= (1.0_wp + of_edge)*found%range(2) .and. meetings%to &
+      >= (1.0_wp - of_edge)*found%range(1))
 
   contains
 
@@ -263,7 +279,7 @@ contains
 
       real(wp), allocatable :: change(:)
       real(wp) :: total(2)
-      logical, allocatable :: near(:), alike(:), matters(:)
+      logical, allocatable :: near(:), alike(:), smooth(:)
       integer, allocatable :: number(:, :)
       integer :: i, j, n, to(2)
       logical :: good, is_wanted
@@ -274,54 +290,79 @@ contains
       allocate (step%meeting(0))
       if (.not. (allocated(step%left%turns) .and. allocated(step%right%turns))) return
       n = size(step%left%turns)
+      if (size(step%right%turns) /= n) return
       if (allocated(step%partner)) deallocate (step%partner)
-      allocate (step%partner(n), change(n), near(n), alike(n), number(n, 2))
-      call match_stations(step%left, step%right, step%partner, change, near, alike)
-      number(:, 1) = step%left%number
-      number(:, 2) = huge(n)
-      do i = 1, n
-        if (step%partner(i) > 0) number(i, 2) = step%right%number(step%partner(i))
-      end do
-      matters = any(number <= request%modes, dim=2)
-      ! Two that pass each other closely need not be told apart.
-      if (any(matters .and. .not. (near .and. (alike .or. is_last)))) return
-      step%good = .true.
+      allocate (step%partner(n), change(n), near(n), alike(n), smooth(n))
+      call match_stations(step%left, step%right, step%partner, change, near, alike, smooth)
+      number = reshape([step%left%number, step%right%number(step%partner)], [n, 2])
       do i = 1, n
         do j = i, n
           is_wanted = any(max(number(i, :), number(j, :)) <= request%modes)
-          if (.not. (is_wanted .or. may_be_wanted(step%left, [i, j]))) cycle
-          if (step%left%met(i) == j) cycle
+          if (.not. is_wanted) then
+            if (is_last .or. .not. may_be_wanted(step, number, [i, j])) cycle
+          end if
+          ! Two that pass each other closely need not be told apart.
+          if (.not. all(near([i, j]) .and. (alike([i, j]) .and. smooth([i, j]) .or. is_last))) &
+            return
           to = step%partner([i, j])
-          if (any(to == 0)) cycle
-          if (step%right%met(to(1)) == to(2)) cycle
-          if (step%left%met(i) > 0 .and. step%right%met(to(1)) > 0) cycle
-          if (step%left%met(j) > 0 .and. step%right%met(to(2)) > 0) cycle
+          if (step%left%met(i) == j .or. step%right%met(to(1)) == to(2)) cycle
+          if (stays_with_other(step, i) .or. stays_with_other(step, j)) cycle
+          ! Off the circle at both, with others: it was on it between, if only for a moment.
+          if (any(step%left%met([i, j]) > 0 .and. step%right%met(to) > 0) .and. step%right%speed - &
+            step%left%speed > for_a_moment*step%left%speed .and. .not. is_last) return
           total(1) = step%left%turns(i) + step%left%turns(j)
           total(2) = total(1) + change(i) + change(j)
           if (ceiling(minval(total)) > floor(maxval(total))) cycle
           good = ceiling(minval(total)) == floor(maxval(total)) .and. &
             step%left%met(i) + step%left%met(j) + sum(step%right%met(to)) == 0
+          if (good .and. .not. is_last) good = is_smooth(step, [i, j], total(2) - total(1))
           if (good) call look_into(step, [i, j], to, total - ceiling(minval(total)), is_wanted, &
             good)
-          if (good .or. .not. is_wanted) cycle
-          step%good = .false.
+          if (good) cycle
           step%fault = "two multipliers meet near others"
           return
         end do
       end do
+      step%good = .true.
     end subroutine look_between
 
-    !> Whether two vibrations may be those wanted by their numbers where they meet: both have about
-    !! the geometric mean of their frequencies there, with equal actions.
-    pure function may_be_wanted(station, pair) result(may)
-      type(station_t), intent(in) :: station
-      integer, intent(in) :: pair(2)
+    !> Whether a vibration is off the circle at both stations with the same one.
+    pure function stays_with_other(step, i) result(stays)
+      type(step_t), intent(in) :: step
+      integer, intent(in) :: i !! at the left
+      logical :: stays
+
+      stays = step%left%met(i) > 0
+      if (stays) stays = step%right%met(step%partner(i)) == step%partner(step%left%met(i))
+    end function stays_with_other
+
+    !> Whether two angles change as their slopes at both stations say.
+    pure function is_smooth(step, left, change) result(smooth)
+      type(step_t), intent(in) :: step
+      integer, intent(in) :: left(2)   !! vibrations of the left
+      real(wp), intent(in) :: change   !! of the sum of their angles
+      logical :: smooth
+
+      smooth = abs(change - 0.5_wp*log(step%right%speed/step%left%speed)*sum(step%left% &
+        slope(left) + step%right%slope(step%partner(left)))) <= not_smooth*abs(change)
+    end function is_smooth
+
+    !> Whether two vibrations may be those wanted by their numbers where they meet between stations:
+    !! both have about the geometric mean of their frequencies there, with equal actions. A number
+    !! next to those wanted may be one of them where others meet, too.
+    pure function may_be_wanted(step, number, pair) result(may)
+      type(step_t), intent(in) :: step
+      integer, intent(in) :: number(:, :) !! (vibrations of the left, stations)
+      integer, intent(in) :: pair(2)      !! vibrations of the left
       logical :: may
 
-      logical :: slower(size(station%rate))
+      logical :: slower(size(number, 1))
 
-      slower = station%rate > 0.0_wp .and. station%rate < surely_slower*sqrt(product( &
-        station%rate(pair)))
+      may = minval(maxval(number(pair, :), dim=1)) <= request%modes + 1
+      if (may .or. minval(maxval(number(pair, :), dim=1)) > request%modes + numbers_above) return
+      slower = step%left%rate < surely_slower*sqrt(product(step%left%rate(pair))) .and. &
+        step%right%rate(step%partner) < surely_slower*sqrt(product(step%right%rate(step% &
+        partner(pair))))
       slower(pair) = .false.
       may = count(slower) + merge(1, 2, pair(1) == pair(2)) <= request%modes
     end function may_be_wanted
@@ -465,11 +506,12 @@ contains
       type(open_t), intent(inout) :: open
 
       open%pair = pair
-      open%is_wanted = open%is_wanted .or. all(station%number(pair) <= request%modes)
+      open%least_number = min(open%least_number, maxval(station%number(pair)))
+      open%is_wanted = open%least_number <= request%modes
       associate (meeting => open%meeting, growth => 2.0_wp*pi*station%growth(pair(1)))
-        meeting%is_own = pair(1) == pair(2)
         meeting%plane = [meeting%plane, plane_of(station, pair)]
         if (growth <= meeting%growth) return
+        meeting%is_own = pair(1) == pair(2)
         meeting%growth = growth
         meeting%at = station%speed
       end associate
@@ -488,7 +530,13 @@ contains
       do i = 1, size(open)
         to = step%partner(open(i)%pair)
         goes_on(i) = all(to > 0)
-        if (goes_on(i)) goes_on(i) = step%right%met(to(1)) == to(2)
+        if (goes_on(i)) then
+          ! One of them may grow on with another: a third has passed.
+          associate (met => step%right%met(to))
+            if (met(1) /= to(2) .and. any(met > 0)) to = [to(maxloc(met, dim=1)), maxval(met)]
+          end associate
+          goes_on(i) = step%right%met(to(1)) == to(2) .and. .not. any(is_old(to))
+        end if
         if (goes_on(i)) then
           call go_to(step%right, to, open(i))
           is_old(to) = .true.
@@ -574,11 +622,25 @@ contains
       call close_pair(pair)
     end subroutine find_edge
 
-    !> An interval whose edges are known.
+    !> An interval whose edges are known, if both vibrations are wanted somewhere in it.
     subroutine keep(open)
-      type(open_t), intent(in) :: open
+      type(open_t), intent(inout) :: open
+
+      type(meeting_pair_t) :: pair
+      integer :: i
+      logical :: good
 
       found%meetings = found%meetings + 1
+      if (.not. open%is_wanted .and. open%least_number <= request%modes + numbers_above) then
+        associate (meeting => open%meeting)
+          call open_pair(request, levels(level_for(meeting%at))%level, slow, meeting, .false., pair)
+          do i = 1, inside
+            call find_numbers(pair, meeting%from + i*(meeting%to - meeting%from)/(inside + 1), good)
+            if (good) open%is_wanted = open%is_wanted .or. all(pair%number <= request%modes)
+          end do
+          call close_pair(pair)
+        end associate
+      end if
       if (.not. open%is_wanted .or. open%meeting%growth < worth*request%least_growth) return
       meetings = [meetings, open%meeting]
     end subroutine keep
@@ -590,7 +652,8 @@ contains
 
       real(wp) :: since
 
-      if (.not. open%is_wanted .or. open%meeting%growth < request%least_growth) return
+      if (open%least_number > request%modes + merge(0, 1, open%meeting%is_own) .or. &
+        open%meeting%growth < request%least_growth) return
       since = open%since
       if (open%has_edge) since = open%meeting%from
       call add_gap(since, until, "vibrations grow, edges are not found", found)

@@ -20,8 +20,13 @@ module multiplier_stations
   real(wp), parameter :: off_circle = 1.0e-7_wp, of_pair = 1.0e-5_wp
 
   !> A vibration is found again if its angle is as near as this to where it is expected [turns], and
-  !! if the product of the spaces is no less than this.
-  real(wp), parameter :: near_enough = 0.2_wp, same_enough = 0.6_wp
+  !! if the product of the spaces is no less than this. Between, its angle is known well if it is as
+  !! near as the third.
+  real(wp), parameter :: near_enough = 0.2_wp, same_enough = 0.6_wp, smooth_enough = 0.004_wp
+
+  !> Where two multipliers meet their actions vanish, and slopes are not finite: actions smaller than
+  !! this are not used.
+  real(wp), parameter :: least_action = 0.1_wp
 
   !> Multipliers as those of vibrations. Two vibrations whose multipliers have met share their
   !! space.
@@ -30,7 +35,8 @@ module multiplier_stations
     real(wp) :: scale = 1.0_wp              !! of momenta
     integer, allocatable :: number(:)       !! (vibrations) by the frequency of the shape
     real(wp), allocatable :: turns(:)       !! (vibrations) α, −1/2 to 1/2
-    real(wp), allocatable :: rate(:)        !! (vibrations) −dα/d ln ω2, about [turns]
+    real(wp), allocatable :: rate(:)        !! (vibrations) frequency of the shape in terms of ω2
+    real(wp), allocatable :: slope(:)       !! (vibrations) dα/d ln ω2 [turns]; 0: off the circle
     real(wp), allocatable :: growth(:)      !! (vibrations) greatest real part of σ; 0: on the
                                             !! circle
     integer, allocatable :: met(:)          !! (vibrations) whose multiplier each has met, itself
@@ -62,8 +68,8 @@ contains
     station%speed = speed
     station%scale = spectrum%motion%scale*speed
     n = size(spectrum%mode)
-    allocate (station%number(n), station%turns(n), station%rate(n), station%growth(n), &
-      station%met(n), station%space(2*spectrum%motion%number, 2, n))
+    allocate (station%number(n), station%turns(n), station%rate(n), station%slope(n), &
+      station%growth(n), station%met(n), station%space(2*spectrum%motion%number, 2, n))
     allocate (station%dual, mold=station%space)
     n = 0
     free = spectrum%number > 0
@@ -90,6 +96,7 @@ contains
     station%number = station%number(:n)
     station%turns = station%turns(:n)
     station%rate = station%rate(:n)
+    station%slope = station%slope(:n)
     station%growth = station%growth(:n)
     station%met = station%met(:n)
     station%space = station%space(:, :, :n)
@@ -124,6 +131,7 @@ contains
       station%number(n) = spectrum%number(k)
       station%turns(n) = aimag(mode%exponent)
       station%rate(n) = mode%shape_frequency/speed
+      station%slope(n) = 0.0_wp
       station%growth(n) = 0.0_wp
       station%met(n) = 0
       station%space(:, :, n) = 0.0_wp
@@ -136,6 +144,8 @@ contains
       complex(wp) :: u(size(mode%start)), square
 
       call add(mode)
+      ! Only the stiffness depends on ω2: dσ/d ln ω2 is that part of the action.
+      station%slope(n) = -station%rate(n)/max(abs(mode%action), least_action)
       u = state_of(mode%start, station%scale)
       if (mode%action < 0.0_wp) then
         u = conjg(u)
@@ -157,7 +167,6 @@ contains
         call add(one)
         station%number(n) = spectrum%number(first)
         station%turns(n) = aimag(one%exponent)
-        station%rate(n) = 0.0_wp
         station%growth(n) = max(real(one%exponent), real(other%exponent))
         station%met(n) = n
         v = state_of(one%start, station%scale)
@@ -197,20 +206,23 @@ contains
 
   !> Which vibration of a speed is which of another that is near: those whose spaces are most alike
   !! and whose angles are nearest to where they are expected, the best first.
-  pure subroutine match_stations(from, to, partner, change, near, alike)
+  pure subroutine match_stations(from, to, partner, change, near, alike, smooth)
     type(station_t), intent(in) :: from, to
     integer, intent(out) :: partner(:)   !! (vibrations of `from`) among those of `to`; 0: none
     real(wp), intent(out) :: change(:)   !! (vibrations of `from`) of α [turns]
     logical, intent(out) :: near(:), alike(:) !! (vibrations of `from`) the angle is near where it
                                               !! was expected, the space as it was
+    logical, intent(out) :: smooth(:)         !! (the same) the angle is where slopes at both ends
+                                              !! have it
 
-    real(wp), dimension(size(from%turns), size(to%turns)) :: apart, unlike, cost
-    real(wp) :: expected(size(from%turns))
+    real(wp), dimension(size(from%turns), size(to%turns)) :: apart, unlike, cost, expected
     integer :: at(2), i, k, step
 
-    expected = from%turns - from%rate*log(to%speed/from%speed)
     do k = 1, size(to%turns)
-      apart(:, k) = to%turns(k) - expected
+      expected(:, k) = from%turns + log(to%speed/from%speed)*0.5_wp*(from%slope + to%slope(k))
+      where (from%met > 0) expected(:, k) = from%turns + log(to%speed/from%speed)*to%slope(k)
+      if (to%met(k) > 0) expected(:, k) = from%turns + log(to%speed/from%speed)*from%slope
+      apart(:, k) = to%turns(k) - expected(:, k)
       do i = 1, size(from%turns)
         unlike(i, k) = max(0.0_wp, 1.0_wp - likeness(from, i, to, k))
       end do
@@ -221,13 +233,15 @@ contains
     change = 0.0_wp
     near = .false.
     alike = .false.
+    smooth = .false.
     do step = 1, min(size(from%turns), size(to%turns))
       at = minloc(cost)
       i = at(1)
       k = at(2)
       partner(i) = k
-      change(i) = expected(i) + apart(i, k) - from%turns(i)
+      change(i) = expected(i, k) + apart(i, k) - from%turns(i)
       near(i) = abs(apart(i, k)) < near_enough
+      smooth(i) = abs(apart(i, k)) < smooth_enough
       alike(i) = unlike(i, k) <= 1.0_wp - same_enough
       cost(i, :) = huge(1.0_wp)
       cost(:, k) = huge(1.0_wp)
@@ -272,7 +286,7 @@ contains
       if (station%met(i) == j) return
       apart = -station%turns(j) - station%turns(i)
       plane%turns = station%turns(i) + 0.5_wp*(apart - anint(apart))
-      plane%rate = 0.5_wp*(station%rate(i) - station%rate(j))
+      plane%rate = 0.5_wp*(station%slope(j) - station%slope(i))
       plane%space(:, 2) = conjg(station%space(:, 1, j))
       plane%dual(:, 2) = conjg(station%dual(:, 1, j))
     end associate
