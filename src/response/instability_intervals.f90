@@ -32,6 +32,9 @@ module instability_intervals
   !> Growth of the slow motion above this times the least that counts is growth.
   real(wp), parameter :: certain = 2.0_wp
 
+  !> Share of the speed to which edges are found by the slow motion.
+  real(wp), parameter :: to_begin = 1.0e-4_wp
+
   !> Orders of the second solution above those of the first; most times orders and samples are
   !! raised, and the largest order.
   integer, parameter :: orders_above = 2, most_rounds = 3, most_order = 24
@@ -282,7 +285,7 @@ contains
       places = [meeting%from, meeting%at, meeting%to]
       if (pair%is_damped) return
       pair%whole = .false.
-      call find_interval(pair, places, least_error()*meeting%at, of, good)
+      call find_interval(pair, places, to_begin*meeting%at, of, good)
       pair%whole = .true.
       if (good .and. of%growth > 0.0_wp) places = [of%from, of%at, of%to]
     end function first_places

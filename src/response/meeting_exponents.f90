@@ -238,8 +238,8 @@ contains
       real(wp), intent(in) :: last_change         !! of the square, in the last round
 
       change = last_change
-      good = change <= most_change*max(self%largest, abs(difference)**2) .and. abs(difference**2 - slow**2) <= &
-        farthest*(2.0_wp*abs(slow) + farthest)
+      good = change <= most_change*max(self%largest, abs(difference)**2) .and. abs(difference**2 - &
+        slow**2) <= farthest*(2.0_wp*abs(slow) + farthest)
     end subroutine check
 
   end subroutine evaluate

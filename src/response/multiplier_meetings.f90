@@ -544,8 +544,8 @@ contains
           call lose(open(i), step%right%speed)
         else
           open(i)%meeting%plane = [open(i)%meeting%plane, plane_of(step%right, to)]
-          call find_edge(step, open(i)%meeting%plane(size(open(i)%meeting%plane) - 1:), &
-            open(i)%meeting%to, good)
+          call find_edge(step, open(i)%pair, open(i)%meeting%plane(size(open(i)%meeting% &
+            plane) - 1:), open(i)%meeting%to, good)
           if (good .and. open(i)%has_edge) then
             call keep(open(i))
           else if (good) then
@@ -564,16 +564,31 @@ contains
         before = [findloc(step%partner, i, dim=1), findloc(step%partner, step%right%met(i), dim=1)]
         if (all(before > 0)) new%meeting%plane = [plane_of(step%left, before)]
         call go_to(step%right, [i, step%right%met(i)], new)
-        if (all(before > 0)) call find_edge(step, new%meeting%plane, new%meeting%from, &
+        if (all(before > 0)) call find_edge(step, before, new%meeting%plane, new%meeting%from, &
           new%has_edge)
         open = [open, new]
       end do
     end subroutine pass
 
+    !> The square of the difference of two exponents at a station, negative off the circle.
+    pure function square_of(station, pair) result(square)
+      type(station_t), intent(in) :: station
+      integer, intent(in) :: pair(2) !! vibrations
+      real(wp) :: square
+
+      if (station%met(pair(1)) == pair(2)) then
+        square = -4.0_wp*station%growth(pair(1))**2
+      else
+        square = sum(station%turns(pair))
+        square = (square - anint(square))**2
+      end if
+    end function square_of
+
     !> Where the square of the difference of two exponents changes its sign between two stations, by
     !! the Illinois method.
-    subroutine find_edge(step, plane, edge, good)
+    subroutine find_edge(step, left, plane, edge, good)
       type(step_t), intent(in) :: step
+      integer, intent(in) :: left(2)        !! vibrations of the left
       type(plane_t), intent(in) :: plane(:) !! at both
       real(wp), intent(out) :: edge         !! [rad/s]
       logical, intent(out) :: good
@@ -589,12 +604,8 @@ contains
         pair)
       place(:2) = [step%left%speed, step%right%speed]
       edge = place(1)
+      value(:2) = [square_of(step%left, left), square_of(step%right, step%partner(left))]
       search: block
-        do i = 1, 2
-          call pair%evaluate(place(i), total, square, good)
-          if (.not. good) exit search
-          value(i) = real(square)
-        end do
         good = value(1)*value(2) <= 0.0_wp
         if (.not. good) exit search
         side = 0

@@ -22,10 +22,10 @@ module multiplier_stations
   !> A vibration is found again if its angle is as near as this to where it is expected [turns], and
   !! if the product of the spaces is no less than this. Between, its angle is known well if it is as
   !! near as the third.
-  real(wp), parameter :: near_enough = 0.2_wp, same_enough = 0.6_wp, smooth_enough = 0.004_wp
+  real(wp), parameter :: near_enough = 0.2_wp, same_enough = 0.6_wp, smooth_enough = 4.0e-3_wp
 
-  !> Where two multipliers meet their actions vanish, and slopes are not finite: actions smaller than
-  !! this are not used.
+  !> Where two multipliers meet their actions vanish, and slopes are not finite: no smaller ones
+  !! than this are used.
   real(wp), parameter :: least_action = 0.1_wp
 
   !> Multipliers as those of vibrations. Two vibrations whose multipliers have met share their
