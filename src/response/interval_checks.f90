@@ -7,6 +7,7 @@ module interval_checks
   use kinds, only: wp
   use link_store, only: link_store_t
   use multiplier_meetings, only: add_gap
+  use response_types, only: no_damping
   use stability, only: find_stability
   use stability_types, only: exponent_t, instability_t, intervals_t, is_unstable, &
     speed_stability_t, stability_request_t, stability_t, unstable_combination
@@ -67,9 +68,9 @@ contains
       end do
     end if
     do i = 1, n
-      if (known(i) .and. confirmed(i)%mode(2) <= request%modes) then
+      if (known(i) .and. confirmed(i)%mode(1) <= request%modes) then
         found%interval = [found%interval, confirmed(i)]
-      else if (.not. known(i) .and. intervals(i)%mode(2) <= request%modes) then
+      else if (.not. known(i) .and. intervals(i)%mode(1) <= request%modes) then
         call add_gap(intervals(i)%from, intervals(i)%to, "the interval is not confirmed at "// &
           to_string(intervals(i)%at, 6)//" rad/s", found)
       end if
@@ -119,18 +120,18 @@ contains
       real(wp), intent(in) :: share !! of the largest growth that is there at least
       logical :: is
 
+      real(wp), allocatable :: there(:)
       integer :: k, mode(2)
 
       is = .not. allocated(here%error)
       if (is) is = any(here%exponent%verdict == intervals(i)%kind)
       if (.not. is) return
+      there = growth_of(here%exponent)
       associate (growth => intervals(i)%growth)
-        k = minloc(abs(here%exponent%growth - growth), dim=1, mask=here%exponent%verdict == &
-          intervals(i)%kind)
+        k = minloc(abs(there - growth), dim=1, mask=here%exponent%verdict == intervals(i)%kind)
         associate (exponent => here%exponent(k))
-          is = exponent%growth >= share*growth - intervals(i)%growth_error - exponent%error .and. &
-            exponent%growth <= (2.0_wp - at_peak)*growth + intervals(i)%growth_error + &
-            exponent%error
+          is = there(k) >= share*growth - intervals(i)%growth_error - exponent%error .and. &
+            there(k) <= (2.0_wp - at_peak)*growth + intervals(i)%growth_error + exponent%error
           mode = [exponent%mode, exponent%mode]
           if (intervals(i)%kind == unstable_combination) mode(2) = exponent%partner
           if (mode(2) == 0) mode = intervals(i)%mode
@@ -138,6 +139,15 @@ contains
         end associate
       end associate
     end function is_confirmed
+
+    !> Growth of exponents. Without damping the partner of one that fades grows as much.
+    elemental function growth_of(exponent) result(growth)
+      type(exponent_t), intent(in) :: exponent
+      real(wp) :: growth
+
+      growth = exponent%growth
+      if (all(request%damping%kind == no_damping)) growth = abs(growth)
+    end function growth_of
 
     !> Whether no vibration grows at a speed between intervals.
     subroutine look_for_others(k)
@@ -151,7 +161,7 @@ contains
           reason = "nothing is confirmed at "//to_string(speed(k), 6)//" rad/s: "//here%error%text
         else
           some = pack(here%exponent, here%exponent%mode <= request%modes)
-          some = pack(some, some%growth + some%error >= request%least_growth .and. .not. &
+          some = pack(some, growth_of(some) + some%error >= request%least_growth .and. .not. &
             (is_unstable(some%verdict) .and. some%partner > request%modes))
           if (size(some) == 0) return
           reason = "mode "//to_string(some(1)%mode)//" may grow at "//to_string(speed(k), 6)// &

@@ -53,7 +53,7 @@ module multiplier_meetings
   real(wp), parameter :: not_smooth = 0.3_wp
 
   !> Places in an interval at which vibrations are numbered.
-  integer, parameter :: inside = 9
+  integer, parameter :: inside = 5
 
   !> Growth above this share of the least that counts is looked into.
   real(wp), parameter :: worth = 0.5_wp
@@ -316,8 +316,7 @@ contains
           good = ceiling(minval(total)) == floor(maxval(total)) .and. &
             step%left%met(i) + step%left%met(j) + sum(step%right%met(to)) == 0
           if (good .and. .not. is_last) good = is_smooth(step, [i, j], total(2) - total(1))
-          if (good) call look_into(step, [i, j], to, total - ceiling(minval(total)), is_wanted, &
-            good)
+          if (good) call look_into(step, [i, j], to, total - ceiling(minval(total)), good)
           if (good) cycle
           step%fault = "two multipliers meet near others"
           return
@@ -368,16 +367,16 @@ contains
     end function may_be_wanted
 
     !> Growth and place of the meeting of two vibrations between stations.
-    subroutine look_into(step, left, right, total, is_wanted, good)
+    subroutine look_into(step, left, right, total, good)
       type(step_t), intent(inout) :: step
       integer, intent(in) :: left(2), right(2) !! their numbers at both stations
       real(wp), intent(in) :: total(2)         !! sums of angles there, but for a whole number
-      logical, intent(in) :: is_wanted         !! else only if it is by the numbers at the meeting
       logical, intent(out) :: good             !! it was found
 
       type(meeting_t) :: meeting
       type(meeting_pair_t) :: pair
       real(wp) :: length, square, slope, width
+      logical :: counts
 
       meeting%plane = [plane_of(step%left, left), plane_of(step%right, right)]
       meeting%is_own = left(1) == left(2)
@@ -387,17 +386,18 @@ contains
         pair)
       call find_closest(pair, meeting%at, min(0.25_wp, beside/abs(total(2) - total(1)))*length, &
         square, slope, good)
-      if (good .and. .not. is_wanted) call find_numbers(pair, meeting%at, good)
-      call close_pair(pair)
-      if (.not. good) return
-      if (.not. is_wanted .and. any(pair%number > request%modes)) return
-      width = sqrt(max(-square, 0.0_wp))/slope
+      width = 0.0_wp
+      if (good) width = sqrt(max(-square, 0.0_wp))/slope
       meeting%growth = pi*sqrt(max(-square, 0.0_wp))
       meeting%from = meeting%at - width
       meeting%to = meeting%at + width
+      counts = good .and. meeting%growth >= worth*request%least_growth
+      if (counts) call find_whether_wanted(pair, meeting, counts)
+      call close_pair(pair)
+      if (.not. good) return
       ! Both are on the circle at both stations.
       good = meeting%to >= step%left%speed .and. meeting%from <= step%right%speed
-      if (good) step%meeting = [step%meeting, meeting]
+      if (good .and. counts) step%meeting = [step%meeting, meeting]
     end subroutine look_into
 
     !> Steps beyond an end of the range, until multipliers that are off the circle there return.
@@ -413,9 +413,9 @@ contains
       here = steps(1)%left
       if (forwards) here = steps(size(steps))%right
       if (.not. allocated(here%turns)) return
-      off = here%met > 0 .and. here%number <= request%modes
+      off = here%met > 0 .and. here%number <= request%modes + 1
       do i = 1, size(off)
-        if (off(i)) off(i) = here%number(here%met(i)) <= request%modes
+        if (off(i)) off(i) = here%number(here%met(i)) <= request%modes + 1
       end do
       length = step_at(here%speed)
       do k = 1, most_beyond
@@ -598,6 +598,7 @@ contains
       complex(wp) :: total, square
       real(wp) :: place(3), value(3)
       integer :: i, side
+      logical :: moved(2), near
 
       meeting%plane = plane
       call open_pair(request, levels(level_for(step%left%speed))%level, slow, meeting, .false., &
@@ -609,21 +610,25 @@ contains
         good = value(1)*value(2) <= 0.0_wp
         if (.not. good) exit search
         side = 0
+        moved = .false.
         do i = 1, most_steps
           place(3) = (place(1)*value(2) - place(2)*value(1))/(value(2) - value(1))
+          near = abs(place(3) - edge) <= near_edge*(step%right%speed - step%left%speed)
           edge = place(3)
-          if (min(edge - place(1), place(2) - edge) <= near_edge*(step%right%speed - &
-            step%left%speed) .and. i > 2) exit
+          ! A value that is small beside the other hardly moves the place at first.
+          if (near .and. all(moved)) exit
           call pair%evaluate(edge, total, square, good)
           if (.not. good) exit search
           value(3) = real(square)
           if (value(3)*value(2) > 0.0_wp) then
             place(2) = place(3)
+            moved(2) = .true.
             value(2) = value(3)
             if (side == 2) value(1) = 0.5_wp*value(1)
             side = 2
           else
             place(1) = place(3)
+            moved(1) = .true.
             value(1) = value(3)
             if (side == 1) value(2) = 0.5_wp*value(2)
             side = 1
@@ -633,22 +638,35 @@ contains
       call close_pair(pair)
     end subroutine find_edge
 
+    !> Whether two vibrations have numbers of those wanted anywhere in their interval.
+    subroutine find_whether_wanted(pair, meeting, is_wanted)
+      type(meeting_pair_t), intent(inout) :: pair !! of the meeting
+      type(meeting_t), intent(in) :: meeting
+      logical, intent(out) :: is_wanted
+
+      integer :: i
+      logical :: good
+
+      is_wanted = .false.
+      do i = 1, inside
+        call find_numbers(pair, meeting%from + (i - 0.5_wp)*(meeting%to - meeting%from)/inside, &
+          good)
+        if (good) is_wanted = all(pair%number <= request%modes)
+        if (is_wanted) return
+      end do
+    end subroutine find_whether_wanted
+
     !> An interval whose edges are known, if both vibrations are wanted somewhere in it.
     subroutine keep(open)
       type(open_t), intent(inout) :: open
 
       type(meeting_pair_t) :: pair
-      integer :: i
-      logical :: good
 
       found%meetings = found%meetings + 1
       if (.not. open%is_wanted .and. open%least_number <= request%modes + numbers_above) then
         associate (meeting => open%meeting)
           call open_pair(request, levels(level_for(meeting%at))%level, slow, meeting, .false., pair)
-          do i = 1, inside
-            call find_numbers(pair, meeting%from + i*(meeting%to - meeting%from)/(inside + 1), good)
-            if (good) open%is_wanted = open%is_wanted .or. all(pair%number <= request%modes)
-          end do
+          call find_whether_wanted(pair, meeting, open%is_wanted)
           call close_pair(pair)
         end associate
       end if
