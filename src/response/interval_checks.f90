@@ -25,6 +25,9 @@ module interval_checks
   !! at its place, and at so much of the width beside it.
   real(wp), parameter :: at_peak = 0.999_wp, at_side = 0.5_wp, beside = 0.15_wp
 
+  !> Places near the edges at which modes are numbered, in terms of the width.
+  real(wp), parameter :: near_edge = 0.12_wp
+
   !> Exponents are found to this share of the least growth that counts.
   real(wp), parameter :: in_growth = 0.1_wp
 
@@ -45,7 +48,7 @@ contains
     type(instability_t), allocatable :: confirmed(:)
     real(wp), allocatable :: speed(:), edge(:, :)
     integer, allocatable :: others(:)
-    logical, allocatable :: known(:)
+    logical, allocatable :: known(:), wanted(:)
     integer :: i, k, n
 
     n = size(intervals)
@@ -67,8 +70,22 @@ contains
         known(others(k)) = is_confirmed(others(k), at%at_speed(k), at_side)
       end do
     end if
+    ! Numbers may change inside: one is not wanted where no part of it is.
+    wanted = [(confirmed(i)%mode(2) <= request%modes, i=1, n)]
+    others = pack([(i, i=1, n)], known .and. .not. wanted)
+    if (size(others) > 0) then
+      associate (some => intervals(others))
+        call find_exponents([some%from + near_edge*(some%to - some%from), some%to - near_edge* &
+          (some%to - some%from)])
+      end associate
+      if (allocated(error) .or. was_interrupted()) return
+      do k = 1, size(others)
+        wanted(others(k)) = is_wanted(intervals(others(k))%kind, at%at_speed(k)) .or. &
+          is_wanted(intervals(others(k))%kind, at%at_speed(size(others) + k))
+      end do
+    end if
     do i = 1, n
-      if (known(i) .and. confirmed(i)%mode(1) <= request%modes) then
+      if (known(i) .and. wanted(i)) then
         found%interval = [found%interval, confirmed(i)]
       else if (.not. known(i) .and. intervals(i)%mode(1) <= request%modes) then
         call add_gap(intervals(i)%from, intervals(i)%to, "the interval is not confirmed at "// &
@@ -139,6 +156,17 @@ contains
         end associate
       end associate
     end function is_confirmed
+
+    !> Whether two of the modes wanted grow at a speed in an interval.
+    pure function is_wanted(kind, here) result(is)
+      integer, intent(in) :: kind
+      type(speed_stability_t), intent(in) :: here
+      logical :: is
+
+      is = allocated(here%error)
+      if (.not. is) is = any(here%exponent%verdict == kind .and. max(here%exponent%mode, &
+        here%exponent%partner) <= request%modes)
+    end function is_wanted
 
     !> Growth of exponents. Without damping the partner of one that fades grows as much.
     elemental function growth_of(exponent) result(growth)
