@@ -53,6 +53,7 @@ contains
 
     n = size(intervals)
     call list_speeds
+    if (size(speed) == 0) return
     confirmed = intervals
     call find_exponents(speed)
     if (allocated(error) .or. was_interrupted()) return
@@ -97,7 +98,7 @@ contains
 
     !> The places of the intervals, then speeds between them.
     subroutine list_speeds
-      real(wp) :: from, to
+      real(wp) :: from, middle, to
       integer :: i, j, pieces
 
       speed = intervals%at
@@ -110,7 +111,10 @@ contains
         if (to > from) then
           pieces = 1 + int((to - from)/(between*from))
           do j = 1, pieces
-            speed = [speed, from + (to - from)*(j - 0.5_wp)/pieces]
+            middle = from + (to - from)*(j - 0.5_wp)/pieces
+            ! Speeds of which is known why nothing is found.
+            if (any(found%gap%from <= middle .and. middle <= found%gap%to)) cycle
+            speed = [speed, middle]
             edge = reshape([edge, [from, to]], [2, size(speed)])
           end do
         end if
