@@ -40,6 +40,7 @@ FAMILIES = [
     ("accuracies", "tests/stress/compare_accuracies.py {program} --frequencies 20000 --seed 1"),
     ("stress", "tests/stress/run_stress.py {program} --every 4 --no-figures"),
     ("stress of responses", "build/release/stress/responses 420 {threads} build/check-all/responses.dat 1"),
+    ("intervals of instability", "tests/intervals/random_intervals.py 1 200 --program {program}"),
     ("stress of stability", "build/release/stress/stability 10 25 {threads} 1"),
 ]
 
