@@ -44,9 +44,14 @@ module exponent_meetings
     complex(wp) :: total(64) = 0.0_wp, square(64) = 0.0_wp
   end type samples_t
 
-  !> A place is found when a value is known so near to it, in terms of the interval's width, or when
-  !! parabolas are good enough there: they bend otherwise over this share of the parameter.
-  real(wp), parameter :: reach = 0.05_wp, bends_over = 0.1_wp
+  !> A parabola is right where exponents bend over this share of the parameter. An edge is found
+  !! when a value is known so near to it that the parabola is right to the tolerance or to the
+  !! second share of the interval's width there; the peak, which is flat, when one is as near as
+  !! the third.
+  real(wp), parameter :: bends_over = 0.1_wp, of_width = 2.0e-5_wp, reach = 1.0e-2_wp
+
+  !> Places a little beside one, in terms of how near they have to be.
+  real(wp), parameter :: beside = 0.3_wp
 
   !> Most places are looked at so many times; widths by which one is left at most, and share of it
   !! for a peak with damping.
@@ -96,10 +101,10 @@ contains
   end subroutine find_closest
 
   !> Edges, largest growth and its place of an interval.
-  subroutine find_interval(pair, center, width, tolerance, interval, good)
+  subroutine find_interval(pair, about, tolerance, interval, good)
     class(exponent_pair_t), intent(inout) :: pair
-    real(wp), intent(in) :: center, width    !! about where it is, and half its width
-    real(wp), intent(in) :: tolerance        !! of its edges, beside a thousandth of the width
+    real(wp), intent(in) :: about(3)         !! edges and peak: from, at, to
+    real(wp), intent(in) :: tolerance        !! of its edges, beside a share of the width
     type(interval_t), intent(out) :: interval !! without growth if there is none
     logical, intent(out) :: good             !! values were found, and places stay
 
@@ -108,12 +113,12 @@ contains
     integer :: i, round
     logical :: exists, added
 
-    scale = width
-    do i = -1, 1
-      call add(center + i*width)
+    goal = about
+    scale = 0.5_wp*(about(3) - about(1))
+    do i = 1, 3
+      call add(i)
       if (.not. good) return
     end do
-    goal = center + [-1, 0, 1]*width
     do round = 1, most_rounds
       goal(2) = peak_of(near_three(samples, goal(2)), pair%is_damped, goal(2), farthest*scale)
       exists = largest_real_part(near_three(samples, goal(2)), goal(2), pair%is_damped) > 0.0_wp
@@ -125,8 +130,8 @@ contains
       added = .false.
       do i = 1, 3
         if (i /= 2 .and. .not. exists) cycle
-        if (is_known(goal(i))) cycle
-        call add(goal(i))
+        if (is_known(i)) cycle
+        call add(i)
         if (.not. good) return
         added = .true.
       end do
@@ -134,6 +139,9 @@ contains
     end do
     good = .not. added
     if (.not. good .or. .not. exists) return
+    ! The value itself, where a parabola is not good enough.
+    if (nearest_to(goal(2)) > of_width*bends_over*abs(goal(2))) call add(2)
+    if (.not. good) return
     interval%from = goal(1)
     interval%at = goal(2)
     interval%to = goal(3)
@@ -142,28 +150,58 @@ contains
 
   contains
 
-    !> Whether parabolas are good enough at a place.
-    function is_known(place) result(known)
-      real(wp), intent(in) :: place
+    !> Whether parabolas are good enough at a goal.
+    function is_known(i) result(known)
+      integer, intent(in) :: i
       logical :: known
 
+      known = nearest_to(goal(i)) <= near_to(i)
+    end function is_known
+
+    !> How near a sample is to be to a goal.
+    function near_to(i) result(near)
+      integer, intent(in) :: i
+      real(wp) :: near
+
+      near = reach*scale
+      ! near (scale + near) = product
+      if (i /= 2) near = 0.5_wp*(sqrt(scale**2 + 4.0_wp*(tolerance + of_width*scale)*bends_over* &
+        abs(goal(i))) - scale)
+    end function near_to
+
+    !> Distance of the nearest sample.
+    function nearest_to(place) result(apart)
+      real(wp), intent(in) :: place
       real(wp) :: apart
 
       apart = minval(abs(samples%place(:samples%number) - place))
-      known = apart <= reach*scale .or. apart*(scale + apart) <= tolerance*bends_over*abs(place)
-    end function is_known
+    end function nearest_to
 
-    subroutine add(place)
+    !> Adds a sample near a goal: a little beside it where there is none, as a third multiplier may
+    !! pass there.
+    subroutine add(i)
+      integer, intent(in) :: i
+
+      integer :: attempt
+
+      do attempt = 0, 2
+        call add_at(goal(i) + attempt*beside*(-1)**attempt*min(near_to(i), scale))
+        if (good) return
+      end do
+    end subroutine add
+
+    subroutine add_at(place)
       real(wp), intent(in) :: place
 
-      good = samples%number < size(samples%place)
+      integer :: n
+
+      n = samples%number + 1
+      good = n <= size(samples%place)
       if (.not. good) return
-      samples%number = samples%number + 1
-      associate (n => samples%number)
-        samples%place(n) = place
-        call pair%evaluate(place, samples%total(n), samples%square(n), good)
-      end associate
-    end subroutine add
+      samples%place(n) = place
+      call pair%evaluate(place, samples%total(n), samples%square(n), good)
+      if (good) samples%number = n
+    end subroutine add_at
 
   end subroutine find_interval
 
@@ -195,24 +233,30 @@ contains
     y = value(1) + (x - place(1))*(first + (x - place(2))*second)
   end function parabola
 
-  !> The greater real part of both exponents by parabolas. Without damping exponents are on the axis
-  !! or beside it by half the root of the square, which is negative then.
+  !> The greater real part of both exponents by parabolas.
   pure function largest_real_part(three, place, is_damped) result(largest)
     type(samples_t), intent(in) :: three
     real(wp), intent(in) :: place
     logical, intent(in) :: is_damped
     real(wp) :: largest
 
-    complex(wp) :: square
-
-    square = parabola(three%place(:3), three%square(:3), place)
-    if (is_damped) then
-      largest = 0.5_wp*(real(parabola(three%place(:3), three%total(:3), place)) + &
-        abs(real(sqrt(-square))))
-    else
-      largest = 0.5_wp*sign(sqrt(abs(real(square))), -real(square))
-    end if
+    largest = greater_of(parabola(three%place(:3), three%total(:3), place), &
+      parabola(three%place(:3), three%square(:3), place), is_damped)
   end function largest_real_part
+
+  !> The greater real part of both exponents. Without damping exponents are on the axis or beside it
+  !! by half the root of the square, which is negative then.
+  elemental function greater_of(total, square, is_damped) result(greater)
+    complex(wp), intent(in) :: total, square
+    logical, intent(in) :: is_damped
+    real(wp) :: greater
+
+    if (is_damped) then
+      greater = 0.5_wp*(real(total) + abs(real(sqrt(-square))))
+    else
+      greater = 0.5_wp*sign(sqrt(abs(real(square))), -real(square))
+    end if
+  end function greater_of
 
   !> Where the real part is largest, by golden section; without damping by the vertex.
   pure function peak_of(three, is_damped, about, farthest) result(peak)
@@ -271,7 +315,8 @@ contains
     peak = 0.5_wp*(low + high)
   end function peak_of
 
-  !> The edge on one side of a peak, by bisection of the parabola near where it was.
+  !> The edge on one side of a peak, by bisection of a parabola: through the samples on both sides
+  !! of it and the next, or, beyond all samples, through those near where it was.
   pure function edge_of(samples, is_damped, peak, step, before) result(edge)
     type(samples_t), intent(in) :: samples
     logical, intent(in) :: is_damped
@@ -279,18 +324,31 @@ contains
     real(wp) :: edge
 
     type(samples_t) :: three
-    real(wp) :: inside, outside
-    integer :: i
+    real(wp) :: ahead(samples%number), inside, outside
+    logical :: grows(samples%number)
+    integer :: i, last, next
 
-    three = near_three(samples, before)
-    if (largest_real_part(three, peak, is_damped) <= 0.0_wp) three = near_three(samples, peak)
-    inside = peak
-    outside = peak
-    do i = 1, 4*nint(farthest)
-      outside = outside + 0.25_wp*step
-      if (largest_real_part(three, outside, is_damped) <= 0.0_wp) exit
-      inside = outside
-    end do
+    ahead = sign(1.0_wp, step)*(samples%place(:samples%number) - peak)
+    grows = greater_of(samples%total(:samples%number), samples%square(:samples%number), &
+      is_damped) > 0.0_wp
+    next = minloc(ahead, dim=1, mask=ahead > 0.0_wp .and. .not. grows)
+    last = 0
+    if (next > 0) last = maxloc(ahead, dim=1, mask=grows .and. ahead < ahead(next))
+    if (last > 0) then
+      three = near_both(samples, last, next, before)
+      inside = samples%place(last)
+      outside = samples%place(next)
+    else
+      three = near_three(samples, before)
+      if (largest_real_part(three, peak, is_damped) <= 0.0_wp) three = near_three(samples, peak)
+      inside = peak
+      outside = peak
+      do i = 1, 4*nint(farthest)
+        outside = outside + 0.25_wp*step
+        if (largest_real_part(three, outside, is_damped) <= 0.0_wp) exit
+        inside = outside
+      end do
+    end if
     do i = 1, bisections
       edge = 0.5_wp*(inside + outside)
       if (largest_real_part(three, edge, is_damped) > 0.0_wp) then
@@ -300,5 +358,24 @@ contains
       end if
     end do
   end function edge_of
+
+  !> Two samples and the one of the others that is nearest to a place.
+  pure function near_both(samples, one, other, place) result(three)
+    type(samples_t), intent(in) :: samples
+    integer, intent(in) :: one, other
+    real(wp), intent(in) :: place
+    type(samples_t) :: three
+
+    real(wp) :: apart(samples%number)
+
+    apart = abs(samples%place(:samples%number) - place)
+    apart([one, other]) = huge(1.0_wp)
+    associate (all => [one, other, minloc(apart, dim=1)])
+      three%number = 3
+      three%place(:3) = samples%place(all)
+      three%total(:3) = samples%total(all)
+      three%square(:3) = samples%square(all)
+    end associate
+  end function near_both
 
 end module exponent_meetings

@@ -59,8 +59,8 @@ module floquet_exponents
   !> No smaller change of the square of a difference of exponents can be asked for.
   real(wp), parameter :: least_square_change = 1.0e-14_wp
 
-  !> Exponents nearer to each other than this are one that was found twice.
-  real(wp), parameter :: as_good_as = 1.0e-9_wp
+  !> Two motions are nearly one if 1 less their product is less than this.
+  real(wp), parameter :: nearly_one = 1.0e-4_wp
 
   !> A vector of which less is left in a space is in it.
   real(wp), parameter :: within = 1.0e-10_wp
@@ -281,7 +281,7 @@ contains
     real(wp), dimension(grid%samples, 2*grid%unknowns) :: residual, correction
     real(wp) :: error
     complex(wp) :: here
-    integer :: idle, number, partner, round
+    integer :: idle, number, p, partner, round
     logical :: grew, is_damped
 
     is_damped = any(damping > 0.0_wp)
@@ -314,7 +314,7 @@ contains
       if (is_damped) partner = maxloc(abs(matmul(conjg(matmul(slope_of_form(followed), weights)), &
         vectors)), dim=1, mask=abs(aimag(values - followed)) < together)
       if (present(pair)) partner = minloc(distance(values, vectors, second), dim=1, &
-        mask=abs(values - values(number)) > as_good_as)
+        mask=[(p /= number, p=1, size(values))])
       if (partner == 0) return
       followed_partner = values(partner)
       partner_weights = vectors(:, partner)
@@ -446,13 +446,16 @@ contains
       n = minloc(abs(roots - followed), dim=1)
       here = roots(n)
       if (.not. present(pair) .or. size(roots) == 1) return
-      p = minloc(abs(roots - followed_partner), dim=1, mask=abs(roots - roots(n)) > as_good_as)
-      if (p > 0) pair%exponent = roots([n, p])
+      p = minloc(abs(roots - followed_partner), dim=1, mask=[(p /= n, p=1, size(roots))])
+      pair%exponent = roots([n, p])
     end subroutine take_value_of_form
 
-    !> Keeps both modes for a speed near by.
+    !> Keeps both modes for a speed near by, unless they are nearly one: nothing is left of the
+    !! plane in which they are then.
     subroutine remember
       if (allocated(pair%known)) deallocate (pair%known)
+      if (1.0_wp - abs(dot_product(weights, partner_weights))/(norm2(abs(weights))* &
+        norm2(abs(partner_weights))) < nearly_one) return
       allocate (pair%known(grid%samples, 2*grid%unknowns, 2))
       pair%known(:, :, 1) = motion_of(weights)
       pair%known(:, :, 2) = motion_of(partner_weights)

@@ -1,35 +1,45 @@
-!> The exponents of two vibrations near their meeting, at any speed: by the slow motion, or by the
-!! whole equation.
+!> The exponents of two vibrations whose multipliers meet, at any speed near that: by the slow
+!! motion, or by the whole equation.
 module meeting_exponents
   use constants, only: pi
   use errors, only: error_t
   use exponent_meetings, only: exponent_pair_t
-  use floquet_exponents, only: find_floquet_pair, floquet_pair_t
+  use floquet_exponents, only: find_floquet_modes, find_floquet_pair, floquet_mode_t, floquet_pair_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
   use kinds, only: wp
+  use multiplier_stations, only: left_of, plane_t, state_of
   use order_transfer, only: transferred_halves
   use response_levels, only: damping_of, level_t
   use response_types, only: no_damping
   use stability, only: find_spectrum, turn_spectrum_t
   use stability_types, only: stability_request_t
-  use vibration_branches, only: frequency_at, meeting_t, unlikeness
   implicit none (type, external)
   private
 
-  public :: meeting_pair_t, open_pair, close_pair, begin_with, find_numbers
+  public :: meeting_t, meeting_pair_t, open_pair, close_pair, begin_with, find_numbers
 
-  !> Multipliers are those of the meeting if they are as near as this to where they are expected
-  !! [turns], and if their shapes have frequencies between those of the vibrations, but for this
-  !! share; of several that which is nearest and most like the vibration.
-  real(wp), parameter :: near_enough = 0.05_wp, like_enough = 0.3_wp, unlike_enough = 0.4_wp
+  !> Two motions are those of the meeting if no more than this is left of them beside the plane at a
+  !! speed near by, and their angles are as near as this to the mean one [turns].
+  real(wp), parameter :: most_left = 0.9_wp, near_enough = 0.35_wp
 
-  !> Actions above this are certain of their sign, without and with damping.
-  real(wp), parameter :: certain(2) = [0.1_wp, 0.6_wp]
+  !> Exponents farther from each other than this are found each by itself, well enough.
+  real(wp), parameter :: apart_enough = 0.03_wp
 
   !> The square of the difference of exponents by the whole equation is to change by no more than
   !! this share of the largest in the last round; it is not found where it changes by more than the
   !! second, or where the difference is farther than the third from that of the slow motion [turns].
-  real(wp), parameter :: fine_change = 1.0e-5_wp, most_change = 1.0e-3_wp, farthest = 5.0e-3_wp
+  real(wp), parameter :: fine_change = 1.0e-5_wp, most_change = 1.0e-3_wp, farthest = 1.0e-2_wp
+
+  !> No smaller change of one exponent is asked for [turns].
+  real(wp), parameter :: least_change = 1.0e-12_wp
+
+  !> Two multipliers that meet, by the slow motion.
+  type :: meeting_t
+    type(plane_t), allocatable :: plane(:) !! their spaces at speeds about it
+    real(wp) :: from = 0.0_wp, at = 0.0_wp, to = 0.0_wp !! where they are off the circle, and most
+    real(wp) :: growth = 0.0_wp            !! there [nepers a turn]
+    logical :: is_own = .false.            !! of one vibration: real multipliers, else those of two
+  end type meeting_t
 
   type, extends(exponent_pair_t) :: meeting_pair_t
     type(stability_request_t), pointer :: request => null()
@@ -53,23 +63,22 @@ module meeting_exponents
 contains
 
   !> Makes the exponents of a meeting ready for evaluation on a level.
-  subroutine open_pair(request, level, slow, meeting, whole, pair, growth)
+  subroutine open_pair(request, level, slow, meeting, whole, pair)
     type(stability_request_t), intent(in), target :: request !! damping, terms
     type(level_t), intent(in), target :: level               !! with the slow coordinates
     integer, intent(in) :: slow                              !! their number
-    type(meeting_t), intent(in) :: meeting                   !! two vibrations; none for spectra
+    type(meeting_t), intent(in) :: meeting                   !! two multipliers; none for spectra
                                                              !! only
     logical, intent(in) :: whole                             !! by the whole equation, else by the
                                                              !! slow motion
     type(meeting_pair_t), intent(out) :: pair                !! to be closed
-    real(wp), intent(in), optional :: growth                 !! expected [nepers a turn]
 
     pair%request => request
     pair%level => level
     pair%slow = slow
     pair%meeting = meeting
     pair%whole = whole
-    if (present(growth)) pair%largest = (growth/pi)**2
+    pair%largest = (meeting%growth/pi)**2
     pair%is_damped = any(request%damping%kind /= no_damping)
     call open_fourier(level%grid%samples, pair%plan)
   end subroutine open_pair
@@ -135,34 +144,76 @@ contains
     logical, intent(out) :: good
 
     complex(wp) :: exponent(2)
-    integer :: mode(2), waves(2)
-    logical :: conjugate(2)
+    real(wp) :: change
+    integer :: attempt, mode(2), waves
+    logical :: conjugate(2), each_first
 
     total = 0.0_wp
     square = 0.0_wp
+    good = place > 0.0_wp
+    if (.not. good) return
     call self%find_spectrum(place)
     good = .not. allocated(self%error)
     if (.not. good) return
-    call find_modes(self%spectrum, self%meeting, place, certain(merge(2, 1, self%is_damped)), &
-      mode, conjugate, waves, exponent, good)
+    call find_modes(self%spectrum, self%meeting%plane, place, mode, conjugate, good)
     if (.not. good) return
     self%number = self%spectrum%number(mode)
+    call restore
+    ! Motions near by, or each by itself, may lead to other modes: then the other way.
     if (self%whole) then
-      call refine(exponent(1) - exponent(2))
-      exponent = self%pair%exponent
+      each_first = abs(exponent(1) - exponent(2)) > apart_enough
+      do attempt = 1, 3
+        call restore
+        if (attempt > 1 .and. allocated(self%pair%known)) deallocate (self%pair%known)
+        if (attempt == merge(1, 3, each_first)) then
+          call refine_each
+        else
+          call refine_both
+        end if
+        if (good) exit
+      end do
+    end if
+    if (self%whole .and. good) then
+      self%largest = max(self%largest, abs(exponent(1) - exponent(2))**2)
+      self%doubt = max(self%doubt, change/self%largest)
     end if
     total = sum(exponent)
     square = -(exponent(1) - exponent(2))**2
 
   contains
 
-    !> Exponents of the whole equation, both for the first mode as it is, not its conjugate.
-    subroutine refine(apart)
-      complex(wp), intent(in) :: apart !! by the slow motion
+    !> Exponents of the slow motion.
+    subroutine restore
+      exponent = self%spectrum%mode(mode)%exponent
+      where (conjugate) exponent = conjg(exponent)
+      waves = nint(aimag(exponent(1) - exponent(2)))
+      exponent(2) = exponent(2) + cmplx(0.0_wp, waves, wp)
+    end subroutine restore
 
+    !> Exponents of the whole equation, each by itself.
+    subroutine refine_each
+      type(floquet_mode_t) :: found(2)
+      complex(wp) :: better(2)
+
+      call find_floquet_modes(self%level%grid, self%plan, self%level%basis(self%slow), &
+        self%spectrum%motion, place, damping_of(self%request%damping, self%level%grid), &
+        self%request%terms, max(0.25_wp*fine_change*abs(exponent(1) - exponent(2)), least_change), &
+        self%spectrum%mode, mode, found)
+      better = found%exponent
+      where (conjugate) better = conjg(better)
+      better(2) = better(2) + cmplx(0.0_wp, nint(aimag(better(1) - better(2))), wp)
+      call check(better(1) - better(2), exponent(1) - exponent(2), 2.0_wp*abs(better(1) - &
+        better(2))*sum(found%change))
+      exponent = better
+    end subroutine refine_each
+
+    !> The same together, both for the first mode as it is, not its conjugate.
+    subroutine refine_both
+      complex(wp) :: apart
       integer :: more
 
-      more = waves(2) - waves(1)
+      apart = exponent(1) - exponent(2)
+      more = waves
       if (conjugate(1)) more = -more
       ! Motions of another sheet are of no use.
       if ((self%was_conjugate .neqv. conjugate(1)) .or. self%pair%waves /= more) then
@@ -176,71 +227,69 @@ contains
       call find_floquet_pair(self%level%grid, self%plan, self%level%basis(self%slow), &
         self%spectrum%motion, place, damping_of(self%request%damping, self%level%grid), &
         self%request%terms, self%spectrum%mode, self%pair)
-      associate (difference => self%pair%exponent(1) - self%pair%exponent(2))
-        self%largest = max(self%largest, abs(difference)**2)
-        self%doubt = max(self%doubt, self%pair%change/self%largest)
-        good = self%pair%change <= most_change*self%largest .and. &
-          abs(difference**2 - merge(conjg(apart), apart, conjugate(1))**2) <= &
-          farthest*(2.0_wp*abs(apart) + farthest)
-      end associate
-    end subroutine refine
+      exponent = self%pair%exponent
+      call check(exponent(1) - exponent(2), merge(conjg(apart), apart, conjugate(1)), &
+        self%pair%change)
+    end subroutine refine_both
+
+    !> Whether a difference is good enough.
+    subroutine check(difference, slow, last_change)
+      complex(wp), intent(in) :: difference, slow !! of exponents, that of the slow motion
+      real(wp), intent(in) :: last_change         !! of the square, in the last round
+
+      change = last_change
+      good = change <= most_change*max(self%largest, abs(difference)**2) .and. abs(difference**2 - &
+        slow**2) <= farthest*(2.0_wp*abs(slow) + farthest)
+    end subroutine check
 
   end subroutine evaluate
 
-  !> The two multipliers of a meeting at a speed: numbers of their modes, whether each is the
-  !! conjugate, turns that it has more on a common sheet, exponents on that.
-  pure subroutine find_modes(spectrum, meeting, speed, certain, mode, conjugate, waves, exponent, &
-    good)
+  !> The two multipliers of a meeting at a speed: numbers of their modes, and whether each is the
+  !! conjugate.
+  pure subroutine find_modes(spectrum, plane, speed, mode, conjugate, good)
     type(turn_spectrum_t), intent(in) :: spectrum
-    type(meeting_t), intent(in) :: meeting
+    type(plane_t), intent(in) :: plane(:) !! at speeds near by
     real(wp), intent(in) :: speed
-    real(wp), intent(in) :: certain !! actions above this are certain of their sign
     integer, intent(out) :: mode(2)
     logical, intent(out) :: conjugate(2)
-    integer, intent(out) :: waves(2)
-    complex(wp), intent(out) :: exponent(2)
     logical, intent(out) :: good
 
-    complex(wp) :: expected(2), value
-    real(wp) :: frequency(2), apart, cost, smallest, unlike
-    integer :: i, k, kind, shift
+    real(wp) :: apart, cost, expected, least(2), left
+    integer :: i, k, kind
 
-    frequency = frequency_at(meeting, speed)
-    ! The first on the sheet of its positive signature, the second on the other.
-    expected = cmplx(0.0_wp, [frequency(1)/speed, meeting%total - frequency(2)/speed], wp)
-    good = .true.
     mode = 0
-    do i = 1, 2
-      smallest = huge(1.0_wp)
+    conjugate = .false.
+    least = huge(1.0_wp)
+    associate (here => plane(minloc(abs(plane%speed - speed), dim=1)))
+      expected = here%turns - here%rate*log(speed/here%speed)
       do k = 1, size(spectrum%mode)
         associate (candidate => spectrum%mode(k))
-          if (candidate%shape_frequency < (1.0_wp - like_enough)*meeting%shape(1)) cycle
-          if (candidate%shape_frequency > (1.0_wp + like_enough)*meeting%shape(2)) cycle
           do kind = 1, merge(2, 1, candidate%is_complex)
-            if (i == 2 .and. k == mode(1) .and. ((kind == 2) .eqv. conjugate(1))) cycle
-            if (abs(candidate%action) > certain .and. &
-              (((kind == 1) .eqv. candidate%action > 0.0_wp) .neqv. i == 1)) cycle
-            value = candidate%exponent
-            if (kind == 2) value = conjg(value)
-            shift = nint(aimag(expected(i) - value))
-            apart = abs(aimag(value - expected(i)) + shift)
+            apart = merge(-1, 1, kind == 2)*aimag(candidate%exponent) - expected
+            apart = abs(apart - anint(apart))
             if (apart > near_enough) cycle
-            ! The second is on the other sheet, as the conjugate of what it was.
-            unlike = unlikeness(meeting, i, candidate, speed*spectrum%motion%scale, &
-              (kind == 2) .neqv. i == 2)
-            cost = (apart/near_enough)**2 + (unlike/unlike_enough)**2
-            if (cost >= smallest) cycle
-            smallest = cost
+            if (kind == 1) left = left_of(here, state_of(candidate%start, speed* &
+              spectrum%motion%scale))
+            if (kind == 2) left = left_of(here, state_of(conjg(candidate%start), speed* &
+              spectrum%motion%scale))
+            if (left > most_left) cycle
+            cost = (apart/near_enough)**2 + (left/most_left)**2
+            i = 1
+            if (cost >= least(1)) i = 2
+            if (cost >= least(2)) cycle
+            if (i == 1) then
+              mode(2) = mode(1)
+              conjugate(2) = conjugate(1)
+              least(2) = least(1)
+            end if
             mode(i) = k
             conjugate(i) = kind == 2
-            waves(i) = shift
-            exponent(i) = value + cmplx(0.0_wp, shift, wp)
+            least(i) = cost
           end do
         end associate
       end do
-      good = good .and. mode(i) > 0
-      if (.not. good) return
-    end do
+    end associate
+    good = all(mode > 0)
   end subroutine find_modes
 
 end module meeting_exponents

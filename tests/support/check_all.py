@@ -45,6 +45,7 @@ FAMILIES = [
     ("reports together", "tests/stress/report_sets.py 1 150 --program build/debug/flexmech"),
     ("stress", "tests/stress/run_stress.py {program} --every 4 --no-figures"),
     ("stress of responses", "build/release/stress/responses 420 {threads} build/check-all/responses.dat 1"),
+    ("intervals of instability", "tests/intervals/random_intervals.py 1 200 --program {program}"),
     ("stress of stability", "build/release/stress/stability 10 25 {threads} 1"),
 ]
 
