@@ -22,6 +22,9 @@ module meeting_exponents
   !! speed near by, and their angles are as near as this to the mean one [turns].
   real(wp), parameter :: most_left = 0.9_wp, near_enough = 0.35_wp
 
+  !> Real parts above this are off the circle, and angles as near as this are that of a meeting.
+  real(wp), parameter :: off_circle = 1.0e-6_wp, at_angle = 5.0e-3_wp
+
   !> Exponents farther from each other than this are found each by itself, well enough.
   real(wp), parameter :: apart_enough = 0.03_wp
 
@@ -272,7 +275,9 @@ contains
               spectrum%motion%scale))
             if (kind == 2) left = left_of(here, state_of(conjg(candidate%start), speed* &
               spectrum%motion%scale))
-            if (left > most_left) cycle
+            ! Two off the circle at the angle of the meeting are those, though a third mixes in.
+            if (left > most_left .and. .not. (abs(real(candidate%exponent)) > off_circle .and. &
+              apart < at_angle)) cycle
             cost = (apart/near_enough)**2 + (left/most_left)**2
             i = 1
             if (cost >= least(1)) i = 2

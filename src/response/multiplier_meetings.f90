@@ -59,7 +59,7 @@ module multiplier_meetings
   real(wp), parameter :: worth = 0.5_wp
 
   !> Edges are found to this share of the step in which they are, in no more steps than these.
-  real(wp), parameter :: near_edge = 2.0e-2_wp
+  real(wp), parameter :: near_edge = 2.0e-3_wp
   integer, parameter :: most_steps = 30
 
   !> Edges by the slow motion are right to this share of the speed.
