@@ -371,6 +371,7 @@ $(build)/tests: ;
 
 # Translated lines are long, and nobody waits for fast tests, only for their compilation.
 fast_release = -O0
+fast_debug   = -O0
 test_options = -ffree-line-length-none $(fast_$(kind)) $(warnings_$(kind)) -J$(build)/funit -I$(build)
 
 # The tests of the tests, which must fail, lie elsewhere.
