@@ -367,7 +367,9 @@ contains
         if (.not. at_end%found .or. abs(at_end%turns) > other_side) return
         call complete(centre, at_end)
         value = at_end%turns**2 - at_end%apart**2
-        if (round > 1 .and. (value - before)/step*rate > 0.0_wp) steep = (value - before)/step
+        if (round > 1) then
+          if ((value - before)/step*rate > 0.0_wp) steep = (value - before)/step
+        end if
         before = value
         step = -value/steep
         ! Not beyond the middle, nor far away.
