@@ -41,10 +41,9 @@ TOLERANCES = [
 ]
 
 # Estimated errors: columns, the factor within which they agree, and the size below which they are rounding. Where several
-# multipliers are near each other rounding decides by which steps the edges of an interval are found; quadratic terms of validity are
-# differences of two iterations.
+# multipliers are near each other rounding decides by which steps the edges of an interval are found.
 ESTIMATES = re.compile(r"error\d*|(band|speed|growth|f\d+)_error")
-FACTOR = {"intervals": 10.0, "validity": 10.0}
+FACTOR = {"intervals": 10.0}
 USUAL_FACTOR = 3.0
 ROUNDING_OF_ERRORS = {r"error\d+|f\d+_error": 2e-13, r".*": 1e-11}
 # Errors of the elastic response also hold what its iterations leave, up to this share of the accuracy asked for: rounding decides
