@@ -20,9 +20,13 @@ again() {
   sed 's/ *!.*//' "$scratch/$base/3/$base/echo.deck" | diff "$scratch/$base/second" -
 }
 
-for deck in inputs/*.deck; do
-  check "the echo of $deck" again "$deck"
-done
+case $program in
+*/release/*)
+  for deck in inputs/*.deck; do
+    check "the echo of $deck" again "$deck"
+  done ;;
+*) skip "echoes of inputs/" "all decks run in the goldens of this build" ;;
+esac
 
 cat >"$scratch/odd.deck" <<'END_OF_DECK'
 title    ! # & = all kept, "quoted", Größe

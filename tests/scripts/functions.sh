@@ -21,7 +21,7 @@ skip() {
 run() {
   wanted=$1
   shift
-  timeout 120 "$program" "$@" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
+  timeout 400 "$program" "$@" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
   found=$?
   [ $found -eq "$wanted" ] && return
   echo "status $found, not $wanted; it said:"

@@ -24,7 +24,7 @@ import fuzz
 SCRATCH = os.path.join("build", "check")
 COUNT = os.path.join("build", "check.count")
 BUILDS = ("release", "debug")
-LONGEST = 600  # seconds; a test that takes longer hangs
+LONGEST = 1200  # seconds; a test that takes longer hangs
 FUZZED = 500   # decks; `make fuzz` runs more
 # The C library has other sin, cos and exp for other processors; without all of these it has those of the oldest.
 OLDEST = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX512F,-AVX512DQ,-AVX512BW,-AVX512VL,-AVX2,-FMA,-FMA4"}
