@@ -71,7 +71,8 @@ module multiplier_meetings
   type :: step_t
     type(station_t) :: left, right
     integer, allocatable :: partner(:)         !! (vibrations of the left) among those of the right
-    type(meeting_t), allocatable :: meeting(:) !! between them
+    type(meeting_t), allocatable :: meeting(:) !! between them that may count
+    integer :: meetings = 0                    !! between them, looked into
     logical :: pending = .true., good = .false.
     character(len=80) :: fault = ""
   end type step_t
@@ -154,7 +155,7 @@ contains
     call extend(.true.)
     found%stations = size(steps) + 1
     do k = 1, size(steps)
-      found%meetings = found%meetings + size(steps(k)%meeting)
+      found%meetings = found%meetings + steps(k)%meetings
       meetings = [meetings, pack(steps(k)%meeting, steps(k)%meeting%growth >= worth* &
         request%least_growth)]
       if (steps(k)%good) cycle
@@ -288,6 +289,7 @@ contains
       step%fault = not_followed
       if (allocated(step%meeting)) deallocate (step%meeting)
       allocate (step%meeting(0))
+      step%meetings = 0
       if (.not. (allocated(step%left%turns) .and. allocated(step%right%turns))) return
       n = size(step%left%turns)
       if (size(step%right%turns) /= n) return
@@ -397,6 +399,7 @@ contains
       if (.not. good) return
       ! Both are on the circle at both stations.
       good = meeting%to >= step%left%speed .and. meeting%from <= step%right%speed
+      if (good) step%meetings = step%meetings + 1
       if (good .and. counts) step%meeting = [step%meeting, meeting]
     end subroutine look_into
 
