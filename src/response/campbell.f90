@@ -11,9 +11,10 @@ module campbell
   use response_levels, only: level_slot_t, need_basis, need_level
   use response_types, only: no_damping
   use slow_motions, only: slow_basis_t
-  use stability, only: find_stability, first_order, slow_number
+  use stability, only: find_stability
   use stability_types, only: stability_request_t, stability_t
   use structures, only: structure_t
+  use turn_spectra, only: first_order, slow_number
   implicit none (type, external)
   private
 

@@ -21,14 +21,14 @@ module critical_speeds
   use multiplier_angles, only: angle_t, angles_of, nearest_to_one
   use multiplier_crossings, only: beside, crossing_t, find_crossings
   use resonance_growth, only: find_growth
-  use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
-    sample_numbers
+  use response_levels, only: damping_of, level_slot_t, level_t, need_level, sample_numbers
   use response_peaks, only: find_peaks, sampled_deflections
   use response_types, only: no_damping, response_request_t, speed_response_t
-  use stability, only: find_spectrum, first_order, first_samples, slow_number, turn_spectrum_t
   use stability_types, only: stability_request_t
   use structures, only: structure_t
   use turn_grids, only: turn_grid_t
+  use turn_spectra, only: find_spectrum, first_order, first_samples, need_two_levels, &
+    slow_number, turn_spectrum_t
   implicit none (type, external)
   private
 
@@ -67,9 +67,6 @@ module critical_speeds
   !> Crossings of slow motions are looked for outside of the speeds asked for, too, by this share of
   !! them: the critical speed may be inside.
   real(wp), parameter :: beyond = 1.0e-3_wp
-
-  !> The second solution of an excitation has orders and samples above those of the first.
-  integer, parameter :: orders_above = 2
 
   !> Estimated errors are differences of two solutions times the first, what iterations leave
   !! of exponents times the second; none is stated below rounding.
@@ -197,7 +194,7 @@ contains
     integer, intent(out) :: number(2)
     type(error_t), allocatable, intent(out) :: error
 
-    integer :: at, i, order
+    integer :: at, order
     logical :: backwards
 
     backwards = request%speed(1) < 0.0_wp
@@ -206,16 +203,8 @@ contains
     if (allocated(error)) return
     at = first_samples(levels(number(1))%level%grid, request%modes, speed, request%accuracy)
     if (at == 0) at = size(sample_numbers)
-    do i = 1, 2
-      call need_level(structure, order + (i - 1)*orders_above, (i + 1)*sample_numbers(at)/2, &
-        backwards, store, levels, number(i), error)
-      if (allocated(error)) return
-      associate (level => levels(number(i))%level)
-        call need_basis(slow_number(level%grid, request%modes), request%damping, level, error, &
-          .true.)
-      end associate
-      if (allocated(error)) return
-    end do
+    call need_two_levels(structure, request, order, sample_numbers(at), backwards, store, levels, &
+      number, error)
   end subroutine find_levels
 
   !> The excitation by the slow motion alone, and the deflection under the same loads at rest.

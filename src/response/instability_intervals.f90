@@ -16,14 +16,14 @@ module instability_intervals
   use link_store, only: link_store_t
   use meeting_exponents, only: begin_with, close_pair, find_numbers, meeting_pair_t, meeting_t, &
     open_pair
-  use multiplier_meetings, only: add_gap, find_meetings, samples_at, slow_count_of
-  use response_levels, only: level_slot_t, need_basis, need_level, sample_numbers
+  use multiplier_meetings, only: add_gap, find_meetings, samples_at
+  use response_levels, only: level_slot_t, need_level, sample_numbers
   use response_types, only: link_damping_t, no_damping
   use sorting, only: ascending_order
-  use stability, only: first_order
   use stability_types, only: instability_t, intervals_t, stability_request_t, &
     unstable_combination, unstable_flip, unstable_fold
   use structures, only: structure_t
+  use turn_spectra, only: first_order, need_two_levels, slow_number
   implicit none (type, external)
   private
 
@@ -35,9 +35,8 @@ module instability_intervals
   !> Share of the speed to which edges are found by the slow motion.
   real(wp), parameter :: to_begin = 1.0e-4_wp
 
-  !> Orders of the second solution above those of the first; most times orders and samples are
-  !! raised, and the largest order.
-  integer, parameter :: orders_above = 2, most_rounds = 3, most_order = 24
+  !> Most times orders and samples are raised, and the largest order.
+  integer, parameter :: most_rounds = 3, most_order = 24
 
   !> Estimated errors are this many times the difference of both solutions, and no less than these
   !! shares of the accuracy and of the width or the growth, for the parabolas.
@@ -179,7 +178,9 @@ contains
     do round = 1, most_rounds
       do i = 1, size(searches)
         if (.not. searches(i)%pending) cycle
-        call find_levels(searches(i))
+        call need_two_levels(structure, request, searches(i)%order, &
+          sample_numbers(searches(i)%at), request%speed(1) < 0.0_wp, store, levels, &
+          searches(i)%level, error)
         if (allocated(error)) return
       end do
       !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
@@ -191,25 +192,6 @@ contains
     end do
 
   contains
-
-    !> Finds or makes the two levels of a search.
-    subroutine find_levels(search)
-      type(search_t), intent(inout) :: search
-
-      integer :: k
-
-      do k = 1, 2
-        call need_level(structure, search%order + (k - 1)*orders_above, (k + 1)* &
-          sample_numbers(search%at)/2, request%speed(1) < 0.0_wp, store, levels, &
-          search%level(k), error)
-        if (allocated(error)) return
-        associate (level => levels(search%level(k))%level)
-          call need_basis(slow_count_of(level%grid, request%modes), request%damping, level, error, &
-            .true.)
-        end associate
-        if (allocated(error)) return
-      end do
-    end subroutine find_levels
 
     !> Measures one on both levels.
     subroutine measure_interval(meeting, search)
@@ -224,7 +206,7 @@ contains
 
       do k = 1, 2
         associate (level => levels(search%level(k))%level)
-          call open_pair(request, level, slow_count_of(level%grid, request%modes), meeting, &
+          call open_pair(request, level, slow_number(level%grid, request%modes), meeting, &
             .true., pair(k))
         end associate
         if (k == 1 .and. search%interval%growth > 0.0_wp) then

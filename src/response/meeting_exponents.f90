@@ -11,8 +11,8 @@ module meeting_exponents
   use order_transfer, only: transferred_halves
   use response_levels, only: damping_of, level_t
   use response_types, only: no_damping
-  use stability, only: find_spectrum, turn_spectrum_t
   use stability_types, only: stability_request_t
+  use turn_spectra, only: find_spectrum, turn_spectrum_t
   implicit none (type, external)
   private
 

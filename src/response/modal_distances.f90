@@ -15,21 +15,16 @@ module modal_distances
   use link_store, only: link_store_t
   use mode_numbers, only: growing_mode, most_spread, numbers_of
   use order_transfer, only: transferred_halves
-  use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
-    sample_numbers
-  use slow_motions, only: add_shape_frequencies, new_slow_motion, slow_modes
-  use stability, only: first_order, first_samples, turn_spectrum_t
+  use response_levels, only: damping_of, level_slot_t, level_t, need_level, sample_numbers
   use stability_types, only: stability_request_t
   use structures, only: structure_t
   use text, only: to_string
-  use turn_grids, only: turn_grid_t
+  use turn_spectra, only: find_spectrum, first_order, first_samples, need_two_levels, &
+    orders_above, turn_spectrum_t
   implicit none (type, external)
   private
 
   public :: modal_distance_t, find_modal_distances
-
-  !> Orders of the second solution above those of the first; its samples are half as many more.
-  integer, parameter :: orders_above = 2
 
   !> Slow coordinates beside those of the modes wanted, and stages of the collocation of motions.
   integer, parameter :: slow_above = 3, stages = 3
@@ -108,8 +103,11 @@ contains
       pending = pack([(k, k=1, size(choice))], choice%pending)
       if (size(pending) == 0) exit
       do i = 1, size(pending)
-        call find_levels(structure, request, request%speed(pending(i)), store, levels, &
-          choice(pending(i)), error)
+        associate (here => choice(pending(i)))
+          call need_two_levels(structure, request, here%order, sample_numbers(here%at), &
+            request%speed(pending(i)) < 0.0_wp, store, levels, here%level, error, &
+            slow=request%modes + slow_above)
+        end associate
         if (allocated(error)) return
       end do
       !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
@@ -126,30 +124,6 @@ contains
     end do
   end subroutine find_modal_distances
 
-  !> Finds or makes the two levels of a speed, with their slow coordinates.
-  subroutine find_levels(structure, request, speed, store, levels, choice, error)
-    class(structure_t), intent(in) :: structure
-    type(stability_request_t), intent(in) :: request
-    real(wp), intent(in) :: speed
-    type(link_store_t), intent(inout) :: store
-    type(level_slot_t), allocatable, intent(inout) :: levels(:)
-    type(choice_t), intent(inout) :: choice
-    type(error_t), allocatable, intent(out) :: error
-
-    integer :: i
-
-    do i = 1, 2
-      call need_level(structure, choice%order + (i - 1)*orders_above, (i + 1)* &
-        sample_numbers(choice%at)/2, speed < 0.0_wp, store, levels, choice%level(i), error)
-      if (allocated(error)) return
-      associate (level => levels(choice%level(i))%level)
-        call need_basis(slow_number(level%grid, request%modes), request%damping, level, error, &
-          .true.)
-      end associate
-      if (allocated(error)) return
-    end do
-  end subroutine find_levels
-
   !> Solves one speed on both levels; raises order and samples if that is not good enough.
   subroutine solve_speed(request, speed, level, above, choice, found)
     type(stability_request_t), intent(in) :: request
@@ -164,17 +138,18 @@ contains
     complex(wp), allocatable :: multiplier(:)
     real(wp), allocatable :: error(:)
     integer, allocatable :: wanted(:), near(:)
-    integer :: i
+    integer :: i, slow
 
     choice%pending = .false.
+    slow = request%modes + slow_above
     call open_fourier(level%grid%samples, plan)
     call open_fourier(above%grid%samples, above_plan)
     attempt: block
-      call find_spectrum(level, plan, slow_number(level%grid, request%modes), speed, spectrum, &
-        here%why)
+      call find_spectrum(level, plan, min(level%grid%unknowns, slow), speed, spectrum, here%why, &
+        stages)
       if (allocated(here%why)) exit attempt
-      call find_spectrum(above, above_plan, slow_number(above%grid, request%modes), speed, &
-        above_spectrum, here%why)
+      call find_spectrum(above, above_plan, min(above%grid%unknowns, slow), speed, &
+        above_spectrum, here%why, stages)
       if (allocated(here%why)) exit attempt
       wanted = [(growing_mode(above_spectrum%mode, above_spectrum%number, i), i=1, &
         min(request%modes, maxval(above_spectrum%number)))]
@@ -268,34 +243,6 @@ contains
     end subroutine take_least
 
   end subroutine solve_speed
-
-  !> Slow coordinates for so many modes.
-  pure function slow_number(grid, modes) result(number)
-    type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: modes
-    integer :: number
-
-    number = min(grid%unknowns, modes + slow_above)
-  end function slow_number
-
-  !> Free motions of the slow coordinates of a level, with their numbers.
-  !!
-  !! Errors: they grow too much in a turn; their multipliers do not converge.
-  subroutine find_spectrum(level, plan, slow, speed, spectrum, error)
-    type(level_t), intent(in) :: level               !! with this many slow coordinates
-    type(fourier_plan_t), intent(in) :: plan         !! for its samples
-    integer, intent(in) :: slow                      !! coordinates
-    real(wp), intent(in) :: speed                    !! |ω2| [rad/s]
-    type(turn_spectrum_t), intent(out) :: spectrum
-    type(error_t), allocatable, intent(out) :: error
-
-    call new_slow_motion(plan, level%basis(slow), speed, stages, spectrum%motion, error)
-    if (allocated(error)) return
-    call slow_modes(level%basis(slow), spectrum%motion, spectrum%mode, error)
-    if (allocated(error)) return
-    call add_shape_frequencies(level%basis(slow), spectrum%motion, speed, spectrum%mode)
-    spectrum%number = numbers_of(spectrum%mode)
-  end subroutine find_spectrum
 
   !> Distance of an exponent from another or from its conjugate, which is of the same vibration.
   elemental function apart_from(other, exponent) result(apart)

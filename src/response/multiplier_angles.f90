@@ -12,7 +12,7 @@ module multiplier_angles
   use kinds, only: wp
   use response_levels, only: level_t
   use slow_motions, only: slow_mode_t
-  use stability, only: find_spectrum, turn_spectrum_t
+  use turn_spectra, only: find_spectrum, turn_spectrum_t
   implicit none (type, external)
   private
 

@@ -12,9 +12,9 @@ module multiplier_crossings
   use multiplier_angles, only: angle_t, angles_t, find_angles, match_angles, nearest_to_one, &
     wrapped
   use response_levels, only: level_slot_t, need_basis, need_level, sample_numbers
-  use stability, only: first_order, first_samples, slow_number
   use stability_types, only: stability_request_t
   use structures, only: structure_t
+  use turn_spectra, only: first_order, first_samples, slow_number
   implicit none (type, external)
   private
 

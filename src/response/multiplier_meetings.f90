@@ -13,15 +13,15 @@ module multiplier_meetings
   use meeting_exponents, only: close_pair, find_numbers, meeting_pair_t, meeting_t, open_pair
   use multiplier_stations, only: match_stations, new_station, plane_of, plane_t, station_t
   use response_levels, only: level_slot_t, need_basis, need_level, sample_numbers
-  use stability, only: first_order, first_samples
   use stability_types, only: gap_t, intervals_t, stability_request_t
   use structures, only: structure_t
   use text, only: to_string
   use turn_grids, only: turn_grid_t
+  use turn_spectra, only: first_order, first_samples, slow_number
   implicit none (type, external)
   private
 
-  public :: find_meetings, add_gap, samples_at, slow_count_of
+  public :: find_meetings, add_gap, samples_at
 
   !> Steps of the speed, in terms of it, and in which the fastest vibration wanted turns by no more
   !! than the second; most times one is halved.
@@ -35,10 +35,10 @@ module multiplier_meetings
   !> An interval is followed beyond the range by so many steps.
   integer, parameter :: most_beyond = 100
 
-  !> There are so many slow coordinates more than vibrations that are wanted; they and the samples
-  !! are for no fewer vibrations than this: the next ones take part where multipliers are near each
-  !! other. These are followed with steps for this accuracy: meetings only have to be found.
-  integer, parameter :: above_wanted = 5, least_modes = 3
+  !> Samples are for no fewer vibrations than this: the next ones take part where multipliers are
+  !! near each other. These are followed with steps for this accuracy: meetings only have to be
+  !! found.
+  integer, parameter :: least_modes = 3
   real(wp), parameter :: to_follow = 0.1_wp
 
   !> Distance in turns of the places beside a meeting from which its growth is found.
@@ -186,7 +186,7 @@ contains
       call need_level(structure, first_order(to_follow), sample_numbers(1), backwards, store, &
         levels, place, error)
       if (allocated(error)) return
-      slow = slow_count_of(levels(1)%level%grid, request%modes)
+      slow = slow_number(levels(1)%level%grid, request%modes)
       last = samples_at(levels(1)%level%grid, request%modes, range(1), to_follow)
       if (last == 0) last = size(sample_numbers)
       number = 0
@@ -725,14 +725,5 @@ contains
 
     at = first_samples(grid, max(modes, least_modes), speed, accuracy)
   end function samples_at
-
-  !> Slow coordinates for so many vibrations.
-  pure function slow_count_of(grid, modes) result(number)
-    type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: modes
-    integer :: number
-
-    number = min(grid%unknowns, max(modes, least_modes) + above_wanted)
-  end function slow_count_of
 
 end module multiplier_meetings

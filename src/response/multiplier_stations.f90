@@ -9,7 +9,7 @@
 module multiplier_stations
   use kinds, only: wp
   use slow_motions, only: slow_mode_t
-  use stability, only: turn_spectrum_t
+  use turn_spectra, only: turn_spectrum_t
   implicit none (type, external)
   private
 

@@ -15,33 +15,21 @@ module stability
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use link_store, only: link_store_t
-  use mode_numbers, only: growing_mode, most_spread, numbers_of
+  use mode_numbers, only: growing_mode, most_spread
   use order_transfer, only: transferred_halves
-  use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
-    sample_numbers
+  use response_levels, only: damping_of, level_slot_t, level_t, need_level, sample_numbers
   use response_types, only: no_damping
-  use slow_motions, only: add_shape_frequencies, new_slow_motion, own_squares, slow_mode_t, &
-    slow_modes, slow_motion_t
-  use sorting, only: ascending_order
   use stability_types, only: exponent_t, is_unstable, speed_stability_t, stability_request_t, &
     stability_t, stable, undecided, unstable_combination, unstable_flip, unstable_fold
   use structures, only: structure_t
   use text, only: to_string
   use turn_grids, only: turn_grid_t
+  use turn_spectra, only: find_spectrum, first_order, first_samples, need_two_levels, &
+    samples_a_period, slow_number, turn_spectrum_t, vibrations_of
   implicit none (type, external)
   private
 
-  public :: find_stability, turn_spectrum_t, find_spectrum, slow_number, first_order, &
-    first_samples
-
-  !> Orders of the second solution above those of the first; its samples are half as many more.
-  integer, parameter :: orders_above = 2
-
-  !> Slow coordinates beside those of the modes wanted, and at least.
-  integer, parameter :: slow_above = 5, least_slow = 8
-
-  !> Stages of the collocation of slow motions.
-  integer, parameter :: stages = 4
+  public :: find_stability
 
   !> Exponents of both solutions are wrong by no more than these shares of the accuracy for what
   !! their iterations leave. Errors are to hold some times what the second lacks by that.
@@ -59,9 +47,6 @@ module stability
   !! unknowns × applications of the equation.
   integer(long), parameter :: most_work = 10000000_long
 
-  !> Vibrations have at least this many samples a period.
-  real(wp), parameter :: samples_a_period = 6.0_wp
-
   !> Vibrations of the frozen linkage that fade by more than e to this in a turn beside the slowest
   !! to fade: those of the moving one may be lost in rounding.
   real(wp), parameter :: most_fading = 0.75_wp*most_spread
@@ -74,13 +59,6 @@ module stability
 
   !> With damping, multipliers that have met are no farther from each other than this.
   real(wp), parameter :: met = 0.05_wp
-
-  !> Free motions of the slow coordinates at a speed.
-  type :: turn_spectrum_t
-    type(slow_motion_t) :: motion
-    type(slow_mode_t), allocatable :: mode(:)
-    integer, allocatable :: number(:) !! of the vibration, of every mode
-  end type turn_spectrum_t
 
   !> Orders and samples of a speed.
   type :: choice_t
@@ -110,7 +88,7 @@ contains
     type(level_slot_t), allocatable :: levels(:)
     type(choice_t) :: choice(size(request%speed))
     integer, allocatable :: pending(:)
-    integer :: first, i, k, most_samples, n, order
+    integer :: first, i, k, most_samples, n, order, samples
 
     n = size(request%speed)
     most_samples = sample_numbers(size(sample_numbers))
@@ -136,8 +114,12 @@ contains
       pending = pack([(k, k=1, n)], choice%pending)
       if (size(pending) == 0) exit
       do i = 1, size(pending)
-        call find_levels(structure, request, request%speed(pending(i)), store, levels, &
-          choice(pending(i)), error)
+        associate (here => choice(pending(i)))
+          samples = sample_numbers(here%at)
+          if (request%samples > 0) samples = request%samples
+          call need_two_levels(structure, request, here%order, samples, request%speed(pending(i)) &
+            < 0.0_wp, store, levels, here%level, error)
+        end associate
         if (allocated(error)) return
       end do
       !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
@@ -153,100 +135,6 @@ contains
       !$omp end parallel do
     end do
   end subroutine find_stability
-
-  !> Polynomial degree to begin with: exponents are eigenvalues, whose errors fall twice as fast as
-  !! those of shapes.
-  pure function first_order(accuracy) result(order)
-    real(wp), intent(in) :: accuracy
-    integer :: order
-
-    order = max(8, min(4 + 2*ceiling(-0.5_wp*log10(accuracy)), 16))
-  end function first_order
-
-  !> Samples to begin with, from the vibrations a turn of the highest mode wanted.
-  pure function first_samples(grid, modes, speed, accuracy) result(at)
-    type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: modes
-    real(wp), intent(in) :: speed, accuracy
-    integer :: at !! of `sample_numbers`; 0: too many
-
-    real(wp) :: vibrations, wanted
-
-    vibrations = vibrations_of(grid, modes, speed)
-    wanted = (64.0_wp + 10.0_wp*min(vibrations, 1.0e6_wp))*(0.4_wp - 0.075_wp*log10(accuracy))
-    at = 0
-    if (samples_a_period*vibrations > sample_numbers(size(sample_numbers))) return
-    at = findloc(sample_numbers >= min(nint(wanted), sample_numbers(size(sample_numbers))), &
-      .true., dim=1)
-  end function first_samples
-
-  !> Vibrations a turn of the highest mode wanted.
-  pure function vibrations_of(grid, modes, speed) result(vibrations)
-    type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: modes
-    real(wp), intent(in) :: speed
-    real(wp) :: vibrations
-
-    real(wp) :: square(grid%unknowns)
-
-    square = own_squares(grid)
-    square = square(ascending_order(-square))
-    vibrations = 1.0_wp/max(abs(speed)*sqrt(square(min(modes, size(square)))), tiny(1.0_wp))
-  end function vibrations_of
-
-  !> Slow coordinates for so many modes.
-  pure function slow_number(grid, modes) result(number)
-    type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: modes
-    integer :: number
-
-    number = min(grid%unknowns, max(modes + slow_above, least_slow))
-  end function slow_number
-
-  !> Finds or makes the two levels of a speed, with their slow coordinates.
-  subroutine find_levels(structure, request, speed, store, levels, choice, error)
-    class(structure_t), intent(in) :: structure
-    type(stability_request_t), intent(in) :: request
-    real(wp), intent(in) :: speed
-    type(link_store_t), intent(inout) :: store
-    type(level_slot_t), allocatable, intent(inout) :: levels(:)
-    type(choice_t), intent(inout) :: choice
-    type(error_t), allocatable, intent(out) :: error
-
-    integer :: i, samples
-
-    samples = sample_numbers(choice%at)
-    if (request%samples > 0) samples = request%samples
-    do i = 1, 2
-      call need_level(structure, choice%order + (i - 1)*orders_above, (i + 1)*samples/2, &
-        speed < 0.0_wp, store, levels, choice%level(i), error)
-      if (allocated(error)) return
-      associate (level => levels(choice%level(i))%level)
-        call need_basis(slow_number(level%grid, request%modes), request%damping, level, error, &
-          .true.)
-      end associate
-      if (allocated(error)) return
-    end do
-  end subroutine find_levels
-
-  !> Free motions of the slow coordinates of a level, with their numbers.
-  !!
-  !! Errors: they grow too much in a turn; their multipliers do not converge.
-  subroutine find_spectrum(level, plan, slow, speed, spectrum, error)
-    type(level_t), intent(in) :: level               !! with this many slow coordinates
-    type(fourier_plan_t), intent(in) :: plan         !! for its samples
-    integer, intent(in) :: slow                      !! coordinates
-    real(wp), intent(in) :: speed                    !! |ω2| [rad/s]
-    type(turn_spectrum_t), intent(out) :: spectrum
-    type(error_t), allocatable, intent(out) :: error
-
-    call new_slow_motion(plan, level%basis(slow), speed, stages, spectrum%motion, error)
-    if (allocated(error)) return
-    call slow_modes(level%basis(slow), spectrum%motion, spectrum%mode, error)
-    if (allocated(error)) return
-    call add_shape_frequencies(level%basis(slow), spectrum%motion, speed, spectrum%mode)
-    spectrum%number = numbers_of(spectrum%mode)
-  end subroutine find_spectrum
 
   !> Solves one speed on both levels: its result, and its next choice of orders and samples if it is
   !! not accurate enough.
