@@ -38,7 +38,7 @@ module models
     accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
     link_line_density, speed_in_table, speed_in_words, is_four_bar, is_pin, pivots, &
-    drives_length, balances, has_law
+    is_end_of_spring, drives_length, balances, has_law
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -222,6 +222,24 @@ contains
     is = holds_spring(model, name)
   end function is_pin
 
+  !> Whether a SPRING or DAMPER card names a place.
+  pure function is_end_of_spring(model, name) result(is)
+    type(model_t), intent(in) :: model
+    character(len=*), intent(in) :: name
+    logical :: is
+
+    integer :: i, k
+
+    is = .false.
+    if (.not. allocated(model%springs)) return
+    do i = 1, size(model%springs)
+      do k = 1, 2
+        if (model%springs(i)%ends(k)%line > 0) is = is .or. &
+          same_word(model%springs(i)%ends(k)%text, name)
+      end do
+    end do
+  end function is_end_of_spring
+
   !> Whether links bend, and a name is that of a point at which a spring or damper holds one that
   !! does.
   pure function holds_spring(model, name) result(holds)
@@ -232,13 +250,7 @@ contains
     integer :: i, k
 
     holds = .false.
-    if (.not. model%cuts_at_springs .or. .not. allocated(model%springs)) return
-    do i = 1, size(model%springs)
-      do k = 1, 2
-        if (model%springs(i)%ends(k)%line > 0) holds = holds .or. &
-          same_word(model%springs(i)%ends(k)%text, name)
-      end do
-    end do
+    if (model%cuts_at_springs) holds = is_end_of_spring(model, name)
     if (.not. holds) return
     do i = 1, size(model%points)
       if (.not. same_word(model%points(i)%name%text, name)) cycle

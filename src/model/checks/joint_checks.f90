@@ -4,7 +4,7 @@ module joint_checks
   use joint_cards, only: slider_t, weld_t
   use kinds, only: wp
   use link_shapes, only: find_drawn_pin
-  use models, only: model_t
+  use models, only: is_end_of_spring, model_t
   use name_checks, only: look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: suggestion
@@ -127,18 +127,12 @@ contains
     character(len=*), intent(in) :: name
     logical :: holds
 
-    integer :: i, k
+    integer :: i
 
-    holds = .false.
+    holds = is_end_of_spring(model, name)
     do i = 1, size(model%sliders)
       if (model%sliders(i)%pin%line > 0) holds = holds .or. same_word(model%sliders(i)%pin%text, &
         name)
-    end do
-    do i = 1, size(model%springs)
-      do k = 1, 2
-        if (model%springs(i)%ends(k)%line > 0) holds = holds .or. &
-          same_word(model%springs(i)%ends(k)%text, name)
-      end do
     end do
   end function holds_part
 
