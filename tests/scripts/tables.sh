@@ -27,20 +27,24 @@ full_turn() {
       for (first in row) if (row[first] != again[first]) { print "the rows at 0 and " period " degrees differ"; exit 1 } }' "$1"
 }
 
-for deck in inputs/*.deck; do
-  base=$(basename "$deck" .deck)
-  # The program may say that some rows failed; that is not what is looked at here.
-  "$program" --quiet --out "$scratch" "$deck" 2>/dev/null
-  for table in "$scratch/$base"/*.dat; do
-    name=$base/$(basename "$table")
-    check "form of $name" form "$table"
-    case $name in
-      */mesh.dat | */branches.dat) ;; # in branches a row depends on the one before
-      gas_engine/*) check "0 and 720 degrees in $name" full_turn "$table" 720 ;;
-      *) check "0 and 360 degrees in $name" full_turn "$table" ;;
-    esac
-  done
-done
+case $program in
+*/release/*)
+  for deck in inputs/*.deck; do
+    base=$(basename "$deck" .deck)
+    # The program may say that some rows failed; that is not what is looked at here.
+    "$program" --quiet --out "$scratch" "$deck" 2>/dev/null
+    for table in "$scratch/$base"/*.dat; do
+      name=$base/$(basename "$table")
+      check "form of $name" form "$table"
+      case $name in
+        */mesh.dat | */branches.dat) ;; # in branches a row depends on the one before
+        gas_engine/*) check "0 and 720 degrees in $name" full_turn "$table" 720 ;;
+        *) check "0 and 360 degrees in $name" full_turn "$table" ;;
+      esac
+    done
+  done ;;
+*) skip "tables of inputs/" "they are compared with those kept in this build" ;;
+esac
 
 # head_of REPORT COLUMNS [TABLE]: of its first table, or of another one.
 head_of() {
