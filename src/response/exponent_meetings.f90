@@ -47,11 +47,13 @@ module exponent_meetings
   !> A parabola is right where exponents bend over this share of the parameter. An edge is found
   !! when a value is known so near to it that the parabola is right to the tolerance or to the
   !! second share of the interval's width there; the peak, which is flat, when one is as near as
-  !! the third.
-  real(wp), parameter :: bends_over = 0.1_wp, of_width = 2.0e-5_wp, reach = 1.0e-2_wp
+  !! the third, and another as the fourth: that through both edges and the middle is in the middle.
+  real(wp), parameter :: bends_over = 0.1_wp, of_width = 2.0e-5_wp, reach = 1.0e-2_wp, &
+    for_peak = 0.5_wp
 
-  !> Places a little beside one, in terms of how near they have to be.
-  real(wp), parameter :: beside = 0.3_wp
+  !> Places a little beside one: in terms of how near they have to be, and for a peak of half the
+  !! width.
+  real(wp), parameter :: beside = 0.3_wp, beside_peak = 0.25_wp
 
   !> Most places are looked at so many times; widths by which one is left at most, and share of it
   !! for a peak with damping.
@@ -131,7 +133,11 @@ contains
       do i = 1, 3
         if (i /= 2 .and. .not. exists) cycle
         if (is_known(i)) cycle
-        call add(i)
+        if (i == 2 .and. nearest_to(goal(2)) <= near_to(2)) then
+          call add_at(goal(2) + beside_peak*scale)
+        else
+          call add(i)
+        end if
         if (.not. good) return
         added = .true.
       end do
@@ -156,6 +162,8 @@ contains
       logical :: known
 
       known = nearest_to(goal(i)) <= near_to(i)
+      if (i == 2 .and. exists) known = known .and. count(abs(samples%place(:samples%number) - &
+        goal(2)) <= for_peak*scale) > 1
     end function is_known
 
     !> How near a sample is to be to a goal.

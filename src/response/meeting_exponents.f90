@@ -16,7 +16,7 @@ module meeting_exponents
   implicit none (type, external)
   private
 
-  public :: meeting_t, meeting_pair_t, open_pair, close_pair, begin_with, find_numbers
+  public :: meeting_t, meeting_pair_t, open_pair, close_pair, begin_with, find_numbers, bound_growth
 
   !> Two motions are those of the meeting if no more than this is left of them beside the plane at a
   !! speed near by, and their angles are as near as this to the mean one [turns].
@@ -26,15 +26,22 @@ module meeting_exponents
   real(wp), parameter :: off_circle = 1.0e-6_wp, at_angle = 5.0e-3_wp
 
   !> Exponents farther from each other than this are found each by itself, well enough.
-  real(wp), parameter :: apart_enough = 0.03_wp
+  real(wp), parameter :: apart_enough = 0.1_wp
 
   !> The square of the difference of exponents by the whole equation is to change by no more than
   !! this share of the largest in the last round; it is not found where it changes by more than the
   !! second, or where the difference is farther than the third from that of the slow motion [turns].
   real(wp), parameter :: fine_change = 1.0e-5_wp, most_change = 1.0e-3_wp, farthest = 1.0e-2_wp
 
+  !> Exponents of the slow motion that differ by no more than the first are of one mode at speeds
+  !! near each other; those of a pair σ, −σ̄ by no more than the second.
+  real(wp), parameter :: same_mode = 0.03_wp, of_pair = 1.0e-5_wp
+
   !> No smaller change of one exponent is asked for [turns].
   real(wp), parameter :: least_change = 1.0e-12_wp
+
+  !> Actions change by this share for other reasons than a meeting, near it.
+  real(wp), parameter :: other_change = 0.02_wp
 
   !> Two multipliers that meet, by the slow motion.
   type :: meeting_t
@@ -54,9 +61,14 @@ module meeting_exponents
     type(turn_spectrum_t) :: spectrum !! at the last speed
     type(floquet_pair_t) :: pair      !! at the last speed
     logical :: was_conjugate = .false. !! the first mode of the pair stands for its conjugate
+    !> The modes found last each by itself, and their exponents by the slow motion; of the first
+    !! only, where it has those of the second
+    type(floquet_mode_t), allocatable :: each(:)
+    complex(wp), allocatable :: slow_each(:)
     real(wp) :: largest = 0.0_wp       !! square of their difference at any speed so far
     real(wp) :: doubt = 0.0_wp         !! largest change in the last round, in terms of that
     integer :: number(2) = 0          !! of both vibrations by their shapes, at the last speed
+    real(wp) :: action(2) = 0.0_wp    !! of both, without sign, in the slow motion there
     type(error_t), allocatable :: error !! why there is none at the last speed
   contains
     procedure :: evaluate
@@ -108,24 +120,59 @@ contains
     pair%whole = whole
   end subroutine find_numbers
 
+  !> A bound of the growth of a meeting from a speed beside it. Exponents of two that meet differ
+  !! by `√(x² − g²)`, x linear in the speed, and their actions are `√(1 − g²/x²)` of those far away.
+  subroutine bound_growth(pair, speed, action, growth)
+    class(meeting_pair_t), intent(inout) :: pair
+    real(wp), intent(in) :: speed     !! |ω2| [rad/s]
+    real(wp), intent(in) :: action(2) !! of both far from the meeting, without sign
+    real(wp), intent(out) :: growth   !! no more than this [nepers a turn]; huge: not known
+
+    complex(wp) :: total, square
+    real(wp) :: ratio
+    logical :: good
+
+    growth = huge(1.0_wp)
+    call pair%evaluate(speed, total, square, good)
+    if (.not. good .or. real(square) <= 0.0_wp .or. minval(pair%action) <= 0.0_wp) return
+    ratio = (1.0_wp + other_change)*max(1.0_wp, maxval(action)/minval(pair%action))
+    growth = pi*sqrt(real(square)*(ratio**2 - 1.0_wp))
+  end subroutine bound_growth
+
   !> Begins with the motions found on another level.
   subroutine begin_with(other, pair)
     type(meeting_pair_t), intent(in) :: other   !! evaluated, orders no higher than of the pair
     type(meeting_pair_t), intent(inout) :: pair !! of the same meeting
 
-    real(wp), allocatable :: motion(:, :)
     integer :: i
 
-    if (.not. allocated(other%pair%known)) return
     pair%was_conjugate = other%was_conjugate
     pair%pair%waves = other%pair%waves
+    if (allocated(other%each)) then
+      pair%each = other%each
+      pair%slow_each = other%slow_each
+      do i = 1, size(pair%each)
+        pair%each(i)%motion = moved(other%each(i)%motion)
+      end do
+    end if
+    if (.not. allocated(other%pair%known)) return
     allocate (pair%pair%known(pair%level%grid%samples, 2*pair%level%grid%unknowns, &
       size(other%pair%known, 3)))
     do i = 1, size(other%pair%known, 3)
-      call transferred_halves(other%level%grid, other%plan, pair%level%grid, pair%plan, &
-        other%pair%known(:, :, i), motion)
-      pair%pair%known(:, :, i) = motion
+      pair%pair%known(:, :, i) = moved(other%pair%known(:, :, i))
     end do
+
+  contains
+
+    !> A motion on the level of the pair.
+    function moved(motion) result(there)
+      real(wp), intent(in) :: motion(:, :)
+      real(wp), allocatable :: there(:, :)
+
+      call transferred_halves(other%level%grid, other%plan, pair%level%grid, pair%plan, motion, &
+        there)
+    end function moved
+
   end subroutine begin_with
 
   !> The free motions of the slow coordinates at a speed, or `error`.
@@ -161,6 +208,7 @@ contains
     call find_modes(self%spectrum, self%meeting%plane, place, mode, conjugate, good)
     if (.not. good) return
     self%number = self%spectrum%number(mode)
+    self%action = abs(self%spectrum%mode(mode)%action)
     call restore
     ! Motions near by, or each by itself, may lead to other modes: then the other way.
     if (self%whole) then
@@ -193,22 +241,62 @@ contains
       exponent(2) = exponent(2) + cmplx(0.0_wp, waves, wp)
     end subroutine restore
 
-    !> Exponents of the whole equation, each by itself.
+    !> Exponents of the whole equation, each by itself; without damping that of the first off the
+    !! circle is that of the second, too.
     subroutine refine_each
       type(floquet_mode_t) :: found(2)
-      complex(wp) :: better(2)
+      complex(wp) :: better(2), slow(2)
+      integer :: n
 
-      call find_floquet_modes(self%level%grid, self%plan, self%level%basis(self%slow), &
-        self%spectrum%motion, place, damping_of(self%request%damping, self%level%grid), &
-        self%request%terms, max(0.25_wp*fine_change*abs(exponent(1) - exponent(2)), least_change), &
-        self%spectrum%mode, mode, found)
+      slow = self%spectrum%mode(mode)%exponent
+      n = 2
+      if (.not. self%is_damped .and. abs(real(exponent(1))) > off_circle .and. abs(exponent(1) + &
+        conjg(exponent(2))) <= of_pair) n = 1
+      if (is_near(slow(:n))) then
+        found(:n) = self%each(:n)
+        found(:n)%exponent = slow(:n) + found(:n)%exponent - self%slow_each(:n)
+        call find_each(found(:n), found(:n))
+      else
+        call find_each(found(:n))
+      end if
       better = found%exponent
       where (conjugate) better = conjg(better)
+      if (n == 1) then
+        better(2) = -conjg(better(1))
+        found(2)%change = found(1)%change
+      end if
       better(2) = better(2) + cmplx(0.0_wp, nint(aimag(better(1) - better(2))), wp)
       call check(better(1) - better(2), exponent(1) - exponent(2), 2.0_wp*abs(better(1) - &
         better(2))*sum(found%change))
       exponent = better
+      if (.not. good) return
+      self%each = found(:n)
+      self%slow_each = slow(:n)
     end subroutine refine_each
+
+    !> Whether motions known are of modes with about these exponents by the slow motion.
+    pure function is_near(slow) result(near)
+      complex(wp), intent(in) :: slow(:)
+      logical :: near
+
+      near = allocated(self%each)
+      if (near) near = size(self%each) >= size(slow)
+      if (near) near = all(abs(slow - self%slow_each(:size(slow))) <= same_mode)
+    end function is_near
+
+    !> The modes from those of the slow motion, or from some known.
+    subroutine find_each(found, known)
+      type(floquet_mode_t), intent(inout) :: found(:)
+      type(floquet_mode_t), intent(in), optional :: known(:)
+
+      type(floquet_mode_t) :: new(size(found))
+
+      call find_floquet_modes(self%level%grid, self%plan, self%level%basis(self%slow), &
+        self%spectrum%motion, place, damping_of(self%request%damping, self%level%grid), &
+        self%request%terms, max(0.25_wp*fine_change*abs(exponent(1) - exponent(2)), least_change), &
+        self%spectrum%mode, mode(:size(found)), new, known)
+      found = new
+    end subroutine find_each
 
     !> The same together, both for the first mode as it is, not its conjugate.
     subroutine refine_both

@@ -10,7 +10,8 @@ module multiplier_meetings
   use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
-  use meeting_exponents, only: close_pair, find_numbers, meeting_pair_t, meeting_t, open_pair
+  use meeting_exponents, only: bound_growth, close_pair, find_numbers, meeting_pair_t, meeting_t, &
+    open_pair
   use multiplier_stations, only: match_stations, new_station, plane_of, plane_t, station_t
   use response_levels, only: level_slot_t, need_basis, need_level, sample_numbers
   use stability_types, only: gap_t, intervals_t, stability_request_t
@@ -386,11 +387,16 @@ contains
       meeting%at = step%left%speed - total(1)/(total(2) - total(1))*length
       call open_pair(request, levels(level_for(step%left%speed))%level, slow, meeting, .false., &
         pair)
-      call find_closest(pair, meeting%at, min(0.25_wp, beside/abs(total(2) - total(1)))*length, &
-        square, slope, good)
+      good = .true.
       width = 0.0_wp
-      if (good) width = sqrt(max(-square, 0.0_wp))/slope
-      meeting%growth = pi*sqrt(max(-square, 0.0_wp))
+      call bound_growth(pair, meeting%at, step%left%rate(left)/abs(step%left%slope(left)), &
+        meeting%growth)
+      if (meeting%growth >= worth*request%least_growth) then
+        call find_closest(pair, meeting%at, min(0.25_wp, beside/abs(total(2) - total(1)))*length, &
+          square, slope, good)
+        if (good) width = sqrt(max(-square, 0.0_wp))/slope
+        meeting%growth = pi*sqrt(max(-square, 0.0_wp))
+      end if
       meeting%from = meeting%at - width
       meeting%to = meeting%at + width
       counts = good .and. meeting%growth >= worth*request%least_growth

@@ -306,8 +306,9 @@ contains
             exponent%verdict = unstable_combination
             partner = above_modes(i)%exponent
             if (.not. has_damping()) partner = -conjg(partner)
-            k = nearest_other(above_spectrum, above_wanted(i), partner)
-            if (k > 0) exponent%partner = above_spectrum%number(k)
+            ! Modes are numbered on the first level: numbers may differ where shapes are much alike.
+            k = nearest_other(spectrum, wanted(i), partner)
+            if (k > 0) exponent%partner = spectrum%number(k)
           end if
         else if (has_damping()) then
           if (exponent%growth < -exponent%error) exponent%verdict = stable

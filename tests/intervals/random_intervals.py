@@ -24,6 +24,7 @@ SPEEDS = 40
 LEAST = 2e-3            # growth= of the decks
 CERTAIN = 1.5           # growths by Hill's equation above this times LEAST are growths of the elastic rod, too: it is extensible
 NEAR = 1.5e-3           # edges by both differ by no more than this share of the speed
+BESIDE = 3e-4           # speeds beside one by this share of it
 MOST_FAILED = 0.1       # of all ranges together
 
 
@@ -150,24 +151,34 @@ class Case:
         lines += ["DRIVE crank", f"MODES {modes}"]
         low = own / (self.uniform(1.5, 4) if self.strong else self.uniform(3, 7))
         self.find(lines, low, low * self.uniform(1.1, 1.3))
-        grid = self.grid()
-        rows, _ = self.report(lines, "stability", " ".join(repr(s) for s in grid))
-        self.check_rows(rows, modes, 0.0)
+        for row in self.missed(self.exponents(lines, self.grid()), modes):
+            # Where two shapes pass each other numbers are others for a moment.
+            speed = float(row[0])
+            beside = self.exponents(lines, [speed * (1 - BESIDE), speed * (1 + BESIDE)])
+            if len({r[0] for r in self.missed(beside, modes)}) == 2:
+                self.why.append(f"missed: mode {row[1]} grows by {float(row[3]):.4g} at {speed:.6g} rad/s, {row[7]}")
         places = [i[3] for i in self.intervals]
         if not places:
             return
-        rows, _ = self.report(lines, "stability", " ".join(repr(s) for s in places))
+        # Those of other numbers grow, too.
+        lines[-1] = f"MODES {modes + 2}"
+        rows = self.exponents(lines, places)
         for i in self.intervals:
             here = [r for r in rows if abs(float(r[0]) - i[3]) <= 1e-12 * i[3]]
             if not any(abs(abs(float(r[3])) - i[2]) <= 1e-3 * i[2] + 1e-4 for r in here):
                 self.why.append(f"invented: {i[5]} {i[6]} {i[0]:.6g} to {i[1]:.6g} rad/s, growth {i[2]:.4g}")
 
-    def check_rows(self, rows, modes, near):
+    def exponents(self, lines, speeds):
+        """Rows of REPORT stability."""
+        return self.report(lines, "stability", " ".join(repr(s) for s in speeds))[0]
+
+    def missed(self, rows, modes):
+        """Rows of modes wanted that grow where no interval is."""
         for row in rows:
             speed, growth, error, verdict = float(row[0]), float(row[3]), float(row[6]), row[7]
             partner = int(verdict.split("+")[1]) if "+" in verdict else 0
-            if growth > error + LEAST and partner <= modes and not self.is_known(speed, near):
-                self.why.append(f"missed: mode {row[1]} grows by {growth:.4g} at {speed:.6g} rad/s, {verdict}")
+            if growth > error + LEAST and partner <= modes and not self.is_known(speed, 0.0):
+                yield row
 
 
 def main():
