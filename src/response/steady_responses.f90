@@ -113,6 +113,10 @@ module steady_responses
   !> Errors of strains fall about so much with two orders.
   real(wp), parameter :: gain_of_orders = 30.0_wp
 
+  !> Where an accuracy is not reached errors do not fall as they should, and two solutions may lack
+  !! the same vibration near resonance: estimates count so many times.
+  real(wp), parameter :: not_reached = 3.0_wp
+
   !> Larger errors, above the coarsest accuracy that may be asked for, are no estimates any more.
   real(wp), parameter :: no_digits = 1.0e-2_wp
 
@@ -409,7 +413,7 @@ contains
       call improve
     end if
     if (choice%work > most_work) choice%pending = .false.
-    if (.not. choice%pending) call settle(choice, found)
+    if (.not. choice%pending) call settle(request%accuracy, choice, found)
 
   contains
 
@@ -512,7 +516,8 @@ contains
   end subroutine solve_speed
 
   !> The last word on a speed: the best result, unless it has no digits at all.
-  subroutine settle(choice, found)
+  subroutine settle(accuracy, choice, found)
+    real(wp), intent(in) :: accuracy
     type(choice_t), intent(inout) :: choice
     type(speed_response_t), intent(inout) :: found
 
@@ -525,7 +530,13 @@ contains
       found%applications = applications
       deallocate (choice%best)
     end if
-    if (allocated(found%error) .or. found%largest_error <= no_digits) return
+    if (allocated(found%error) .or. found%largest_error <= accuracy) return
+    found%displacement_error = not_reached*found%displacement_error
+    found%strain_error = not_reached*found%strain_error
+    found%drive_error = not_reached*found%drive_error
+    found%peak_error = not_reached*found%peak_error
+    found%largest_error = not_reached*found%largest_error
+    if (found%largest_error <= no_digits) return
     call set_error(found%error, error_of_numerics, "no accuracy is reached with "// &
       to_string(found%samples)//" samples of the turn and order "//to_string(found%order)// &
       "; the nearest exponent of the turn is "//trim(in_words(found%nearest)))
