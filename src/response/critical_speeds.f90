@@ -46,8 +46,9 @@ module critical_speeds
   integer, parameter :: most_rounds = 6
   real(wp), parameter :: enough = 0.1_wp, solved_to = 3.0e-2_wp, least_change = 1.0e-13_wp
 
-  !> Turns below this are 0; real multipliers less apart are one.
-  real(wp), parameter :: on_axis = 1.0e-9_wp, solved_to_turns = 1.0e-7_wp
+  !> Turns below this are 0, and below the last share of the real part; real multipliers less apart
+  !! than the second are one.
+  real(wp), parameter :: on_axis = 1.0e-9_wp, solved_to_turns = 1.0e-7_wp, real_share = 0.1_wp
 
   !> Exponents that are farther from a multiple than this are not those of the crossing.
   real(wp), parameter :: far = 0.05_wp
@@ -161,6 +162,7 @@ contains
       gap = [gap, gap_t(spread(candidate(i)%crossing%speed, 1, 2))]
     end do
     candidate = pack(candidate, candidate%found .and. .not. is_outside(candidate%speed))
+    candidate = pack(candidate, .not. [(is_again(i), i=1, size(candidate))])
     allocate (critical(size(candidate)))
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
     do i = 1, size(candidate)
@@ -174,6 +176,17 @@ contains
     left_out = left_out + size(candidate) - size(critical)
 
   contains
+
+    !> Whether a candidate is the interval of one before it, in which a multiplier passes 1 twice.
+    logical function is_again(i)
+      integer, intent(in) :: i
+
+      associate (here => candidate(i), before => candidate(:i - 1))
+        is_again = any(before%line == here%line .and. before%crossing%mode == here%crossing%mode &
+          .and. abs(before%speed - here%speed) <= here%speed*min(before%speed_error, &
+          here%speed_error))
+      end associate
+    end function is_again
 
     !> Whether a speed is not one of those asked for.
     elemental logical function is_outside(speed)
@@ -385,6 +398,7 @@ contains
     integer, allocatable :: wanted(:)
     type(error_t), allocatable :: error
     real(wp), allocatable :: damping(:)
+    real(wp) :: apart
     integer :: slow, i, m
 
     trial%speed = speed
@@ -408,10 +422,11 @@ contains
       trial%turns = abs(aimag(mode(1)%exponent))
       trial%change = maxval(mode%change)
       if (any(damping > 0.0_wp)) trial%centre = sum(real(mode%exponent))/size(mode)
-      ! A number that is real within its error is real.
-      if (trial%turns <= max(on_axis, many*trial%change)) then
+      ! A number that is real within its error is real, and so is one far from the centre.
+      apart = abs(real(mode(1)%exponent) - trial%centre)
+      if (trial%turns <= max(on_axis, many*trial%change, real_share*apart)) then
         trial%turns = 0.0_wp
-        trial%apart = abs(real(mode(1)%exponent) - trial%centre)
+        trial%apart = apart
         if (any(damping > 0.0_wp) .and. trial%apart < solved_to_turns) trial%alone = &
           real(mode(1)%exponent)
       end if

@@ -116,7 +116,57 @@ DECK
   [ "$(rows hub/critical.dat | grep -c .)" -eq 0 ] || { rows hub/critical.dat; return 1; }
 }
 
+# Where a multiplier is real from 92.10 to 93.41 rad/s: one critical speed in the middle, its excitation the same for all accuracies.
+middle() {
+  for accuracy in 1e-2 1e-4 1e-6; do
+    deck middle <<DECK || return 1
+UNITS    m kg s
+MATERIAL steel E=2.1e11 density=2277.2
+SECTION  s0 rectangle thickness=0.0029314 width=0.012226
+SECTION  s1 rectangle thickness=0.0024615 width=0.036118
+SECTION  s2 rectangle thickness=0.0095043 width=0.027179
+GROUND   O2 0 0
+GROUND   O4 0.313571 0
+LINK     crank O2 A length=0.122257 material=steel section=s0
+LINK     coupler A B length=0.361179 material=steel section=s1
+LINK     follower O4 B length=0.271786 material=steel section=s2
+DRIVE    crank
+BRANCH   open
+FORCE    B -2.102 3.901
+SPEED    90 96
+MODES    1
+REPORT   campbell accuracy=$accuracy
+DECK
+    rows middle/critical.dat | awk '{ d = $6/0.0749785 - 1; if (d > $8 || -d > $8 || $8 > 0.03 || $1*(1 - $2) > 92.3 || $1*(1 + $2) < 93.3) { print; bad = 1 } }
+      END { exit bad || NR != 1 }' || return 1
+  done
+}
+
+# Two that grow together are named alike in both rows, also where two shapes pass each other and numbers are not certain.
+partners() {
+  deck partners <<'DECK' || return 1
+UNITS    m kg s
+MATERIAL steel E=2e11 density=7800
+SECTION  strip rectangle thickness=0.001055 width=0.00844
+GROUND   O2 0 0
+GROUND   O4 0.1988 0
+LINK     crank O2 A length=0.0688 material=steel section=strip
+LINK     coupler A B length=0.1915 material=steel section=strip
+LINK     follower O4 B length=0.1994 material=steel section=strip
+PINMASS  B 0.012713
+DRIVE    crank
+MODES    3
+SPEED    73.833
+REPORT   stability
+DECK
+  rows partners/stability.dat | awk '
+    $8 ~ /[+]/ { split($8, word, /[:+]/); if (word[2] == word[3] || $2 != word[2] && $2 != word[3]) { print; bad = 1 } count++ }
+    END { exit bad || !count }'
+}
+
 check "growth in a turn has an honest error" growth
 check "the most excited critical speed is there" critical
 check "Floquet frequencies remain where the frozen linkage buckles" buckled
 check "a rotating beam on a hub has Yoo and Shin's frequencies and no critical speed" hub
+check "a critical speed in an interval of real multipliers" middle
+check "two that grow together name each other" partners
