@@ -90,6 +90,11 @@ same_but_names() {
   diff -rq -x summary.json "$1" "$2"
 }
 
+# quick_inputs: the decks of inputs/ that do not take seconds; the others run elsewhere in the check, one by one.
+quick_inputs() {
+  ls inputs/*.deck | grep -v -e /stability -e /transient -e /campbell -e /strains -e /damped_engine
+}
+
 # same_tables FOLDER FOLDER: likewise, but for the log and the echo, which name lines of their deck.
 same_tables() {
   diff -rq -x run.log -x echo.deck -x summary.json "$1" "$2"
