@@ -134,7 +134,10 @@ threads() {
 }
 
 check "CSV with failed rows" failed_rows
-check "CSV of the decks in inputs/" inputs
+case $program in
+*/release/*) check "CSV of the decks in inputs/" inputs ;;
+*) skip "CSV of the decks in inputs/" "their tables are those of the release build" ;;
+esac
 check "CSV no longer requested is removed" no_longer
 check "the same CSV for any number of threads" threads
 check "CSV alone" alone
