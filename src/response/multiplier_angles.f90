@@ -22,8 +22,8 @@ module multiplier_angles
   !! that in turns.
   real(wp), parameter :: uncertain = 0.05_wp, met = 0.02_wp
 
-  !> Of multipliers as near to 1 as each other that which is as fast is taken: turns for a vibration
-  !! a turn.
+  !> Of multipliers as near to a place as each other that which is as fast is taken: turns for a
+  !! vibration a turn.
   real(wp), parameter :: unlike = 0.01_wp
 
   !> The angle of a vibration.
@@ -129,30 +129,32 @@ contains
 
   end function angles_of
 
-  !> Which angle of a speed became which of another that is near, by where they are expected; the
-  !! nearest first.
+  !> Which angle of a speed became which of another that is near, by where they are expected, and
+  !! how fast the vibrations are: one may pass another that stays where it is; the nearest first.
   pure subroutine match_angles(from, to, modes, partner, mismatch)
     type(angles_t), intent(in) :: from, to
     integer, intent(in) :: modes            !! of these the mismatch counts
     integer, intent(out) :: partner(:)      !! (angles of `from`) among those of `to`; 0: none
     real(wp), intent(out) :: mismatch       !! largest [turns]; huge where one has no partner
 
-    real(wp) :: expected(size(from%angle)), apart(size(from%angle), size(to%angle))
+    real(wp), dimension(size(from%angle), size(to%angle)) :: apart, cost
+    real(wp) :: expected(size(from%angle))
     integer :: at(2), i, k
 
     expected = from%angle%turns - from%angle%rate*log(to%speed/from%speed)
     do k = 1, size(to%angle)
       apart(:, k) = abs(wrapped(to%angle(k)%turns - expected))
+      cost(:, k) = apart(:, k) + unlike*abs(to%angle(k)%rate - from%angle%rate)
     end do
     partner = 0
     mismatch = 0.0_wp
     if (min(size(from%angle), size(to%angle)) < modes) mismatch = huge(1.0_wp)
     do i = 1, min(size(from%angle), size(to%angle))
-      at = minloc(apart)
+      at = minloc(cost)
       partner(at(1)) = at(2)
       if (min(at(1), at(2)) <= modes) mismatch = max(mismatch, apart(at(1), at(2)))
-      apart(at(1), :) = huge(1.0_wp)
-      apart(:, at(2)) = huge(1.0_wp)
+      cost(at(1), :) = huge(1.0_wp)
+      cost(:, at(2)) = huge(1.0_wp)
     end do
   end subroutine match_angles
 
