@@ -245,6 +245,7 @@ contains
     !! circle is that of the second, too.
     subroutine refine_each
       type(floquet_mode_t) :: found(2)
+      type(floquet_mode_t), allocatable :: known(:) !! none: absent
       complex(wp) :: better(2), slow(2)
       integer :: n
 
@@ -253,12 +254,13 @@ contains
       if (.not. self%is_damped .and. abs(real(exponent(1))) > off_circle .and. abs(exponent(1) + &
         conjg(exponent(2))) <= of_pair) n = 1
       if (is_near(slow(:n))) then
-        found(:n) = self%each(:n)
-        found(:n)%exponent = slow(:n) + found(:n)%exponent - self%slow_each(:n)
-        call find_each(found(:n), found(:n))
-      else
-        call find_each(found(:n))
+        known = self%each(:n)
+        known%exponent = slow(:n) + known%exponent - self%slow_each(:n)
       end if
+      call find_floquet_modes(self%level%grid, self%plan, self%level%basis(self%slow), &
+        self%spectrum%motion, place, damping_of(self%request%damping, self%level%grid), &
+        self%request%terms, max(0.25_wp*fine_change*abs(exponent(1) - exponent(2)), least_change), &
+        self%spectrum%mode, mode(:n), found(:n), known)
       better = found%exponent
       where (conjugate) better = conjg(better)
       if (n == 1) then
@@ -283,20 +285,6 @@ contains
       if (near) near = size(self%each) >= size(slow)
       if (near) near = all(abs(slow - self%slow_each(:size(slow))) <= same_mode)
     end function is_near
-
-    !> The modes from those of the slow motion, or from some known.
-    subroutine find_each(found, known)
-      type(floquet_mode_t), intent(inout) :: found(:)
-      type(floquet_mode_t), intent(in), optional :: known(:)
-
-      type(floquet_mode_t) :: new(size(found))
-
-      call find_floquet_modes(self%level%grid, self%plan, self%level%basis(self%slow), &
-        self%spectrum%motion, place, damping_of(self%request%damping, self%level%grid), &
-        self%request%terms, max(0.25_wp*fine_change*abs(exponent(1) - exponent(2)), least_change), &
-        self%spectrum%mode, mode(:size(found)), new, known)
-      found = new
-    end subroutine find_each
 
     !> The same together, both for the first mode as it is, not its conjugate.
     subroutine refine_both
