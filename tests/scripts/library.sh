@@ -44,8 +44,9 @@ echo_alone() {
   ! grep -q "INCLUDE\|$root" "$scratch/alone/far.deck" || { echo "it includes, or names a folder"; return 1; }
   grep -q '! library/materials.inc:[0-9]*$' "$scratch/alone/far.deck" || { echo "it does not say where cards are from"; return 1; }
   [ "$(grep -c '^! derived: section' "$scratch/alone/far.deck")" -eq 1 ] || { echo "it has sections that are not used"; return 1; }
-  cp "$program" "$scratch/alone/flexmech"
-  "$scratch/alone/flexmech" --out "$scratch/alone/out" "$scratch/alone/far.deck" </dev/null 2>"$scratch/stderr" && silent &&
+  mkdir -p "$scratch/alone/bin"
+  cp "$program" "$scratch/alone/bin/flexmech"
+  "$scratch/alone/bin/flexmech" --out "$scratch/alone/out" "$scratch/alone/far.deck" </dev/null 2>"$scratch/stderr" && silent &&
     same_tables "$out/far" "$scratch/alone/out/far"
 }
 
@@ -79,7 +80,7 @@ not_there() {
   run 2 --check "$scratch/absent.deck" &&
     says "absent.deck:14:9: error: 'library/wood.inc' cannot be included: no such file in '$scratch', nor in '$root/library'" &&
     says "absent.deck:15:9: error: '$scratch/other/materials.inc' cannot be included: no such file" || return 1
-  ! "$scratch/alone/flexmech" --check "$scratch/absent.deck" </dev/null 2>"$scratch/stderr" || { echo "it was taken"; return 1; }
+  ! "$scratch/alone/bin/flexmech" --check "$scratch/absent.deck" </dev/null 2>"$scratch/stderr" || { echo "it was taken"; return 1; }
   says "absent.deck:2:10: error: 'library/materials.inc' cannot be included: no such file in '$scratch', and this program has no library"
 }
 
