@@ -319,12 +319,13 @@ def stage(job):
 def main(tests):
     # pFUnit's own comparison of a NaN raises the exception that the debug build traps.
     of_assertions = BUILDS if tests.startswith("funit") else ("release",)
-    jobs = [(unit_tests, build, tests) for build in BUILDS]
+    # The longest first, or one processor waits for the other in the end.
+    jobs = [(scripts, build) for build in BUILDS]
+    jobs += [(unit_tests, build, tests) for build in reversed(BUILDS)]
     jobs += [(assertions, build, tests) for build in of_assertions] + [(layers,), (documents,)]
     jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS] + [(repeated_runs,)]
     jobs += [(goldens, "release", OLDEST), (threads,)]
     jobs += [(random_linkages,), (linkages_that_vibrate,), (published_cases,)]
-    jobs += [(scripts, build) for build in BUILDS]
     # Two at once: unit tests take one processor, and decks of one speed, too.
     with multiprocessing.Pool(min(2, os.cpu_count())) as pool:
         for printed, passed, failed in pool.imap(stage, jobs):
