@@ -43,7 +43,7 @@ module critical_speeds
 
   !> Speeds are solved for in so many rounds at most, to the first share of the accuracy; exponents
   !! are wrong by no more than the second for what their iterations leave, or than the least.
-  integer, parameter :: most_rounds = 6
+  integer, parameter :: most_rounds = 6, most_rounds_of_ends = 20
   real(wp), parameter :: enough = 0.1_wp, solved_to = 3.0e-2_wp, least_change = 1.0e-13_wp
 
   !> Turns below this are 0, and below the last share of the real part; real multipliers less apart
@@ -158,8 +158,9 @@ contains
     end do
     !$omp end parallel do
     do i = 1, size(candidate)
-      if (candidate(i)%found .or. is_outside(candidate(i)%crossing%speed)) cycle
-      gap = [gap, gap_t(spread(candidate(i)%crossing%speed, 1, 2))]
+      if (candidate(i)%found) cycle
+      gap = [gap, gap_t(spread(min(max(candidate(i)%crossing%speed, minval(abs(request%speed))), &
+        maxval(abs(request%speed))), 1, 2))]
     end do
     candidate = pack(candidate, candidate%found .and. .not. is_outside(candidate%speed))
     candidate = pack(candidate, .not. [(is_again(i), i=1, size(candidate))])
@@ -249,6 +250,7 @@ contains
     type(trial_t) :: here, before, rough
     real(wp) :: slope, accuracy, centre
     integer :: round
+    logical :: found
 
     slope = candidate%crossing%slope
     accuracy = request%accuracy
@@ -268,7 +270,8 @@ contains
     candidate%speed_error = abs(here%turns) + safety*abs(here%turns - rough%turns) + &
       many*here%change
     if (here%apart > solved_to_turns .or. abs(here%alone) > 0.0_wp) then
-      call find_middle(request, above, slope, here, candidate, centre)
+      call find_middle(request, above, slope, here, candidate, centre, found)
+      if (.not. found) return
       call try_speed(request, above, candidate, candidate%speed, here)
       call try_speed(request, level, candidate, candidate%speed, rough)
       if (.not. (here%found .and. rough%found)) return
@@ -306,21 +309,22 @@ contains
 
   !> The middle of the interval in which multipliers are real, from its ends: those of the parabola
   !! of the square of turns, less than 0 in it, through a speed in it and one on either side, then
-  !! better ones. Its half width is added to the error.
-  subroutine find_middle(request, level, slope, inside, candidate, centre)
+  !! solved for. Its half width is added to the error.
+  subroutine find_middle(request, level, slope, inside, candidate, centre, found)
     type(stability_request_t), intent(in) :: request
     type(level_t), intent(in) :: level
     real(wp), intent(in) :: slope                 !! of turns
     type(trial_t), intent(inout) :: inside        !! completed
     type(candidate_t), intent(inout) :: candidate !! at a speed in it; error in turns
     real(wp), intent(out) :: centre               !! mean real part of the exponents on either side
+    logical, intent(out) :: found                 !! else only `centre` is set
 
     type(trial_t) :: side(2)
-    type(trial_t) :: at_end
     real(wp) :: wide, bend, tilt, half, ends(2)
     integer :: i, round
 
     centre = candidate%centre(2)
+    found = .false.
     wide = outside*max(inside%apart, narrow)/abs(slope)
     do round = 1, most_rounds
       do i = 1, 2
@@ -347,38 +351,44 @@ contains
     ! The parabola is not quite one.
     if (half*abs(slope) > wide_enough) then
       do i = 1, 2
-        call solve_end(ends(i), bend*(2*i - 3)*2.0_wp*half)
+        call solve_end(side(i), ends(i))
+        if (.not. ends(i) > 0.0_wp) return
       end do
     end if
     candidate%speed = 0.5_wp*(ends(1) + ends(2))
     candidate%speed_error = candidate%speed_error + 0.5_wp*abs(slope)*(ends(2) - ends(1))
+    found = .true.
 
   contains
 
-    !> Solves for an end, by secants.
-    subroutine solve_end(at, rate)
-      real(wp), intent(inout) :: at !! about there
-      real(wp), intent(in) :: rate  !! of the square of turns
+    !> Solves for an end between the speed inside and one outside by false position, where of a
+    !! bound that stays twice the value counts half (Illinois).
+    subroutine solve_end(outer, at)
+      type(trial_t), intent(in) :: outer
+      real(wp), intent(inout) :: at !! about there; on return the end, or 0: not found
 
-      real(wp) :: value, before, steep, step
+      type(trial_t) :: here
+      real(wp) :: bound(2), value(2), before
+      integer :: which, last, round
 
-      steep = rate
-      step = 0.0_wp
-      do round = 1, most_rounds
-        call try_speed(request, level, candidate, at, at_end)
-        if (.not. at_end%found .or. abs(at_end%turns) > other_side) return
-        call complete(centre, at_end)
-        value = at_end%turns**2 - at_end%apart**2
-        if (round > 1) then
-          if ((value - before)/step*rate > 0.0_wp) steep = (value - before)/step
-        end if
-        before = value
-        step = -value/steep
-        ! Not beyond the middle, nor far away.
-        if (abs(step) > 0.5_wp*half) return
-        at = at + step
-        if (abs(step) <= enough*request%accuracy*at) return
+      bound = [inside%speed, outer%speed]
+      value = [-inside%apart**2, outer%turns**2]
+      last = 0
+      do round = 1, most_rounds_of_ends
+        if ((at - bound(1))*(at - bound(2)) >= 0.0_wp) at = 0.5_wp*sum(bound)
+        call try_speed(request, level, candidate, at, here)
+        if (.not. here%found .or. abs(here%turns) > other_side) exit
+        call complete(centre, here)
+        which = merge(2, 1, here%turns**2 > here%apart**2)
+        bound(which) = at
+        value(which) = here%turns**2 - here%apart**2
+        if (which == last) value(3 - which) = 0.5_wp*value(3 - which)
+        last = which
+        before = at
+        at = bound(1) - value(1)*(bound(2) - bound(1))/(value(2) - value(1))
+        if (abs(at - before) <= enough*request%accuracy*at) return
       end do
+      at = 0.0_wp
     end subroutine solve_end
 
   end subroutine find_middle

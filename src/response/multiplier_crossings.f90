@@ -2,7 +2,8 @@
 !! frequency is a multiple of the speed of the crank.
 !!
 !! Angles of multipliers are found at speeds so near each other that the fastest turns by a small
-!! part of the circle; where one is not found where it is expected, speeds between are added.
+!! part of the circle; where one is not found where it is expected, speeds between are added, and
+!! before the first where multipliers have met at 1 there.
 !! Between speeds at which an angle has different signs it is solved for.
 module multiplier_crossings
   use campbell_types, only: gap_t
@@ -81,6 +82,14 @@ contains
 
     point = first_points([minval(abs(request%speed)), maxval(abs(request%speed))], frequency)
     call find_all(point)
+    do i = 1, most_refinements
+      if (allocated(error)) return
+      if (.not. any(point(1)%angle%is_real .and. abs(point(1)%angle%turns) < near_one)) exit
+      between = point(:1)
+      between%speed = point(1)%speed*exp(-step)
+      call find_all(between)
+      if (.not. allocated(error)) call insert([0], between, point)
+    end do
     do i = 1, most_refinements
       if (allocated(error)) return
       bad = pack([(k, k=1, size(point) - 1)], is_bad(point))
@@ -304,7 +313,7 @@ contains
 
   !> Puts points between others, each after one of given numbers.
   pure subroutine insert(after, between, point)
-    integer, intent(in) :: after(:)
+    integer, intent(in) :: after(:) !! ascending; 0: before all
     type(angles_t), intent(in) :: between(:)
     type(angles_t), allocatable, intent(inout) :: point(:)
 
@@ -313,9 +322,11 @@ contains
 
     j = 0
     k = 0
-    do i = 1, size(point)
-      k = k + 1
-      all(k) = point(i)
+    do i = 0, size(point)
+      if (i > 0) then
+        k = k + 1
+        all(k) = point(i)
+      end if
       if (.not. any(after == i)) cycle
       j = j + 1
       k = k + 1

@@ -142,6 +142,35 @@ DECK
   done
 }
 
+# A fold where the multiplier is real from 44.4 to 47.4 rad/s: the same middle, 45.86, for all ranges that have it, none for those
+# that have only another part of the fold.
+fold() {
+  for range in "44.194 50.823 1" "43 51 2" "45 48 1" "45.5 46.5 2" "46 48 1"; do
+    deck fold <<DECK || return 1
+UNITS    m kg s
+MATERIAL steel E=2.1e11 density=3175.5
+SECTION  s0 rectangle thickness=0.0010056 width=0.01068
+SECTION  s1 rectangle thickness=0.0022962 width=0.029756
+SECTION  s2 rectangle thickness=0.0023411 width=0.024425
+GROUND   O2 0 0
+GROUND   O4 0.418674 0
+LINK     crank O2 A length=0.106798 material=steel section=s0
+LINK     coupler A B length=0.297555 material=steel section=s1
+LINK     follower O4 B length=0.244252 material=steel section=s2
+DRIVE    crank
+BRANCH   crossed
+PINMASS  B 0.04847
+FORCE    B -0.5726 -1.34
+SPEED    ${range% *}
+MODES    ${range##* }
+REPORT   campbell accuracy=1e-2
+DECK
+    rows fold/critical.dat | awk -v range="$range" 'BEGIN { split(range, end, " ") }
+      $4 == 1 { count++; d = $1/45.86346 - 1; e = $6/0.1793993 - 1; if (d > 1e-3 || -d > 1e-3 || e > $8 || -e > $8 || $2 < 0.03 || $2 > 0.04) { print; bad = 1 } }
+      END { if (count + 0 != (end[1] < 45.86 && end[2] > 45.87)) { print range ": " count + 0 " critical speeds"; bad = 1 } exit bad }' || return 1
+  done
+}
+
 # Two that grow together are named alike in both rows, also where two shapes pass each other and numbers are not certain.
 partners() {
   deck partners <<'DECK' || return 1
@@ -169,4 +198,5 @@ check "the most excited critical speed is there" critical
 check "Floquet frequencies remain where the frozen linkage buckles" buckled
 check "a rotating beam on a hub has Yoo and Shin's frequencies and no critical speed" hub
 check "a critical speed in an interval of real multipliers" middle
+check "a critical speed in a wide fold" fold
 check "two that grow together name each other" partners
