@@ -106,23 +106,27 @@ def stability_differences(one, other):
 
 
 def critical_differences(one, other, case):
-    """The same of critical speeds: those of one line and mode that are near each other; none may be missing inside."""
+    """The same of critical speeds, as pairs that are near each other: of one line and mode, or where vibrations mix, and rows may name
+    either, within the errors. None may be missing inside."""
     damped = bool(case["damping"])
     largest = max([float(row[5]) for row in one + other], default=0.0)
     low, high = sorted(abs(x) for x in (case["speeds"][0], case["speeds"][-1]))
-    taken = set()
+    left = list(other)
     for row in one:
         speed, error = abs(float(row[0])), float(row[1])
-        found = [k for k, match in enumerate(other) if match[2] == row[2] and k not in taken and
-                 abs(abs(float(match[0])) - speed) <= 0.02*speed]
+
+        def apart(match):
+            return abs(abs(float(match[0])) - speed)/speed
+
+        found = [match for match in left if apart(match) <= (0.02 if match[2] == row[2] else error + float(match[1]))]
         if not found:
             inside = low*(1 + 2*error + 1e-6) < speed < high*(1 - 2*error - 1e-6)
             if inside and float(row[5]) > 0.05*largest:
                 yield f"missing {speed:.6g}", 1.0, 0.0, 0.0
             continue
-        match = other[min(found, key=lambda k: abs(abs(float(other[k][0])) - speed))]
-        taken.add(min(found, key=lambda k: abs(abs(float(other[k][0])) - speed)))
-        yield "speed", abs(abs(float(match[0])) - speed)/speed, error, float(match[1])
+        match = min(found, key=apart)
+        left.remove(match)
+        yield "speed", apart(match), error, float(match[1])
         for column, name in ((5, "excitation"), (6, "amplitude"))[:2 if damped else 1]:
             a, b = float(row[column]), float(match[column])
             yield name, abs(a - b)/max(abs(b), 1e-300), float(row[-1]), float(match[-1])
@@ -166,7 +170,6 @@ def main():
         for name in list(runs)[1:]:
             other = found[name]
             if report == "campbell" and name == "more_modes":
-                other = [row for row in other if row[3] == "1"]
                 lists = critical_differences(plain, other, case) if other else []
                 lists = [item for item in lists if not item[0].startswith("missing")]
             elif report == "campbell":
