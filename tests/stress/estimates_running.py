@@ -129,7 +129,7 @@ def critical_differences(one, other, case):
         yield "speed", apart(match), error, float(match[1])
         for column, name in ((5, "excitation"), (6, "amplitude"))[:2 if damped else 1]:
             a, b = float(row[column]), float(match[column])
-            yield name, abs(a - b)/max(abs(b), 1e-300), float(row[-1]), float(match[-1])
+            yield name, abs(a - b), abs(a)*float(row[-1]), abs(b)*float(match[-1])
 
 
 def main():
