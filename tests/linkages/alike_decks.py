@@ -470,6 +470,13 @@ class View:
         e = self.mirror * (ex * (y - p[1]) - ey * (x - p[0]))
         return ex * (x - p[0]) + ey * (y - p[1]), 0.0 if abs(e) < 1e-12 * d else e
 
+    def along(self, link, x, y):
+        """Components along a link, as the machine names its pins, along its first section as its card does."""
+        (p, q), (r, s) = ([complex(*self.machine.places[pin]) for pin in pins[:2]] for pins in (self.machine.links[link]["pins"], self.pins(link)))
+        turn = (q - p) / (s - r)
+        there = complex(x, y) * turn / abs(turn)
+        return there.real, there.imag
+
     def at(self, link, x, y):
         along, offset = self.local(link, x, y)
         return f"{self.number(along, 1)}" + (f" offset={self.number(offset, 1)}" if offset else "")
@@ -558,8 +565,8 @@ class View:
         if kind == "FORCE_AT":
             fx, fy, x, y, more = rest
             if "axes=link" in more:                # components along the link, and to its left, as its card goes
-                sign = -1 if name in self.reversed else 1
-                force = f"{self.number(sign * fx, 1, 1, -2)} {self.number(sign * self.mirror * fy, 1, 1, -2)}"
+                fx, fy = self.along(name, fx, fy)
+                force = f"{self.number(fx, 1, 1, -2)} {self.number(self.mirror * fy, 1, 1, -2)}"
             else:
                 force = self.vector(fx, fy, 1, 1, -2)
             return [f"FORCE {n(name)} {force} at={self.at(name, x, y)}{more}"]
