@@ -44,7 +44,10 @@ module critical_speeds
   !> Speeds are solved for in so many rounds at most, to the first share of the accuracy; exponents
   !! are wrong by no more than the second for what their iterations leave, or than the least.
   integer, parameter :: most_rounds = 6, most_rounds_of_ends = 20
-  real(wp), parameter :: enough = 0.1_wp, solved_to = 3.0e-2_wp, least_change = 1.0e-13_wp
+  real(wp), parameter :: enough = 0.1_wp, solved_to = 3.0e-4_wp, least_change = 1.0e-13_wp
+
+  !> Exponents have no more turns than this at a critical speed: the excitation depends on them.
+  real(wp), parameter :: near_pole = 2.0e-5_wp
 
   !> Turns below this are 0, and below the last share of the real part; real multipliers less apart
   !! than the second are one.
@@ -230,10 +233,11 @@ contains
 
     real(wp), allocatable :: growth(:, :, :), steady(:, :, :)
     type(error_t), allocatable :: error
+    real(wp) :: lack
 
     call find_growth(level, slow_number(level%grid, request%modes), candidate%speed, &
       damping_of(request%damping, level%grid), request%terms, candidate%centre(1), &
-      candidate%square(1), huge(1.0_wp), growth, steady, error)
+      candidate%square(1), 0.0_wp, huge(1.0_wp), growth, steady, lack, error)
     excitation = huge(1.0_wp)
     at_rest = maxval(sampled_deflections(level%grid, load_at_speed(level%grid, candidate%speed)))
     if (allocated(error)) return
@@ -248,7 +252,7 @@ contains
     type(candidate_t), intent(inout) :: candidate
 
     type(trial_t) :: here, before, rough
-    real(wp) :: slope, accuracy, centre
+    real(wp) :: slope, accuracy, centre, wanted
     integer :: round
     logical :: found
 
@@ -260,8 +264,12 @@ contains
       if (round > 1 .and. abs(here%turns - before%turns) > 0.0_wp) slope = secant(before, here)
       ! Differences of rounding tell no slope.
       if (abs(slope/candidate%crossing%slope - 1.0_wp) > 0.5_wp) slope = candidate%crossing%slope
-      if (abs(here%turns/slope) <= enough*accuracy*here%speed) exit
-      if (round == most_rounds) return
+      wanted = enough*accuracy*here%speed*abs(slope)
+      if (abs(here%turns) <= min(wanted, near_pole)) exit
+      if (round == most_rounds) then
+        if (abs(here%turns) <= wanted) exit
+        return
+      end if
       before = here
       candidate%speed = here%speed - here%turns/slope
     end do
@@ -472,6 +480,7 @@ contains
     type(critical_t), intent(out) :: critical
 
     real(wp), dimension(2) :: rough, fine, ignored, change !! of growth and steady part
+    real(wp) :: lack(2)                                    !! on both levels
 
     critical%speed = candidate%speed
     critical%speed_error = candidate%speed_error
@@ -479,14 +488,14 @@ contains
     critical%line = candidate%line
     critical%frequency = critical%line*candidate%speed
     critical%growth = two_pi*candidate%centre(2)
-    call solve(level, 1, rough, ignored)
+    call solve(level, 1, rough, ignored, lack(1))
     if (allocated(critical%fault)) return
-    call solve(above, 2, fine, change)
+    call solve(above, 2, fine, change, lack(2))
     if (allocated(critical%fault)) return
     critical%excitation = fine(1)
     critical%amplitude = fine(2)
     critical%error = max(rounding, maxval((safety*abs(fine - rough) + change)/max(fine, &
-      tiny(1.0_wp))))
+      tiny(1.0_wp))) + safety*lack(2))
     ! The amplitude is that of the resonance over the growth.
     if (fine(2) > 0.0_wp) critical%error = critical%error + candidate%change/max( &
       abs(candidate%centre(2)), candidate%change)
@@ -495,18 +504,19 @@ contains
 
   contains
 
-    subroutine solve(on, number, largest, change)
+    subroutine solve(on, number, largest, change, lack)
       type(level_t), intent(in) :: on
       integer, intent(in) :: number !! of the level
       real(wp), intent(out) :: largest(2), change(2) !! [m]
+      real(wp), intent(out) :: lack
 
       type(fourier_plan_t) :: plan
       real(wp), allocatable :: growth(:, :, :), steady(:, :, :)
 
       call find_growth(on, slow_number(on%grid, request%modes), candidate%speed, &
         damping_of(request%damping, on%grid), request%terms, candidate%centre(number), &
-        candidate%square(number), max(enough*request%accuracy, least_change), growth, steady, &
-        critical%fault)
+        candidate%square(number), candidate%change, max(solved_to*request%accuracy, &
+        least_change), growth, steady, lack, critical%fault)
       if (allocated(critical%fault)) return
       call open_fourier(on%grid%samples, plan)
       largest = [largest_deflection(on%grid, plan, growth(:, :, 1)), largest_deflection(on%grid, &

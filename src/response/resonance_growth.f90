@@ -27,6 +27,9 @@ module resonance_growth
   real(wp), parameter :: nearest = 2.0e-3_wp, beside_pair = 3.0_wp
   real(wp), parameter :: distances(3) = [1.0_wp, 1.5_wp, 2.0_wp] !! in these
 
+  !> Sum of the factors, without sign, of the three in the value there: `Π η_j² / |η_j² − η_i²|`.
+  real(wp), parameter :: extrapolating = 4.7_wp
+
   !> Stages of the collocation of slow motions.
   integer, parameter :: stages = 4
 
@@ -36,8 +39,8 @@ contains
   !! state; and the errors of both by the extrapolation, estimated.
   !!
   !! Errors: iterations do not converge; the slow motion grows too much.
-  subroutine find_growth(level, slow, speed, damping, terms, centre, square, tolerance, &
-    growth, steady, error)
+  subroutine find_growth(level, slow, speed, damping, terms, centre, square, doubt, tolerance, &
+    growth, steady, lack, error)
     type(level_t), intent(in) :: level               !! with this many slow coordinates
     integer, intent(in) :: slow
     real(wp), intent(in) :: speed                    !! |ω2|, critical [rad/s]
@@ -45,12 +48,15 @@ contains
     type(elastic_terms_t), intent(in) :: terms
     real(wp), intent(in) :: centre                   !! σ0, per radian of the crank
     real(wp), intent(in) :: square                   !! κ²; below 0: exponents are `σ0 ± i|κ|`
+    real(wp), intent(in) :: doubt                    !! error of the exponents
     real(wp), intent(in) :: tolerance                !! of the solutions; huge: from the slow motion
                                                      !! alone
     real(wp), allocatable, intent(out) :: growth(:, :, :) !! (samples, unknowns, value and error)
                                                      !! [√J]
     real(wp), allocatable, intent(out) :: steady(:, :, :) !! likewise; 0 where vibrations
                                                      !! do not fade
+    real(wp), intent(out) :: lack                    !! of both, relative, by what iterations leave
+                                                     !! of solutions and exponents
     type(error_t), allocatable, intent(out) :: error !! why there is none
 
     type(fourier_plan_t) :: plan
@@ -66,6 +72,7 @@ contains
     eta = max(nearest, beside_pair*sqrt(abs(square)))*distances
     odd = 0.0_wp
     even = 0.0_wp
+    lack = 0.0_wp
     call open_fourier(level%grid%samples, plan)
     attempt: block
       call new_slow_motion(plan, level%basis(slow), speed, stages, motion, error)
@@ -78,6 +85,7 @@ contains
             speed, damping, terms, load, tolerance, y, iterations, remainder, error, &
             exponent=centre + side*eta(i))
           if (allocated(error)) exit attempt
+          if (tolerance < 1.0_wp) lack = max(lack, extrapolating*remainder)
           odd(:, :, i) = odd(:, :, i) + 0.5_wp*side*(eta(i) - square/eta(i))*y
           even(:, :, i) = even(:, :, i) + 0.5_wp*(eta(i)**2 - square)*y
         end do
@@ -85,6 +93,9 @@ contains
     end block attempt
     call close_fourier(plan)
     if (allocated(error)) return
+    ! Of a/(σ − σ0) + b/(σ − σ0)² the second is seen in the odd part where σ0 is not quite right.
+    lack = lack + extrapolating*doubt/eta(1)**2*(2.0_wp*sqrt(abs(square)) + doubt + &
+      2.0_wp*maxval(abs(even(:, :, 1)))/max(maxval(abs(odd(:, :, 1))), tiny(1.0_wp)))
     odd = extrapolated(odd, eta**2, 0.0_wp)
     growth = two_pi*odd(:, :, :2)
     steady = 0.0_wp
