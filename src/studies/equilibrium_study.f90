@@ -346,7 +346,7 @@ contains
     type(sample_t) :: before, after
     type(lagrange_t) :: terms
     type(state_t) :: state
-    real(wp) :: slope(3), better(2), h, error, per_unit
+    real(wp) :: slope(3), better(2), h, error, per_unit, whole
     integer :: i
 
     state%crank = rest%crank
@@ -367,8 +367,12 @@ contains
     end do
     better = (4.0_wp*slope(2:) - slope(:2))/3.0_wp
     rest%stiffness = (16.0_wp*better(2) - better(1))/15.0_wp
-    error = abs(rest%stiffness - better(2)) + 4.0_wp*epsilon(1.0_wp)*max(before%scale, &
-      after%scale)/(h*per_unit)
+    ! Places are rounded as well as forces.
+    whole = 360.0_wp
+    if (linkage%drives(1)%kind /= drives_angle) whole = abs(rest%crank) + &
+      maxval(linkage%bodies%length)
+    error = abs(rest%stiffness - better(2)) + epsilon(1.0_wp)*(4.0_wp*max(before%scale, &
+      after%scale)/per_unit + 2.0_wp*abs(rest%stiffness)*whole)/h
     if (rest%kind /= is_stable .or. .not. rest%inertia > 0.0_wp) return
     if (rest%stiffness <= error) return
     rest%frequency = sqrt(rest%stiffness/rest%inertia)/(2.0_wp*pi)

@@ -71,6 +71,7 @@ module sizing_study
     real(wp) :: angle_error = 0.0_wp !! of the angle, estimated [deg]
     real(wp) :: change(2) = 1.0_wp   !! of what `error` and `turned_error` are about, from half as
                                      !! many samples, as shares of the peak [-]
+    logical :: has_kinks = .false.   !! the force passes zero between samples, perhaps
   end type sized_t
 
   !> At one speed.
@@ -220,8 +221,9 @@ contains
         call find_peak(linkage, elements, request, number, s, positions%period, values(:, s), &
           sized, division)
         if (abs(sized%mean) <= round_off_share*abs(sized%peak)) sized%mean = 0.0_wp
-        if (s > d) call find_turned_mean(linkage, positions, joints%joints(s - d), values(:, s), &
-          sized)
+        if (s <= d) cycle
+        sized%has_kinks = any(values(:, s) < abs(cshift(values(:, s), 1) - values(:, s)))
+        call find_turned_mean(linkage, positions, joints%joints(s - d), values(:, s), sized)
       end associate
     end do
   end subroutine size_speed
@@ -480,8 +482,8 @@ contains
           a%change = [max(abs(abs(a%peak) - abs(b%peak)), abs(a%rms - b%rms), abs(a%mean - &
             b%mean), abs(a%cubic - b%cubic)), abs(a%turned_cubic - b%turned_cubic)]/ &
             max(abs(a%peak), tiny(1.0_wp))
-          a%error = error_of(a%change(1), b%change(1), b%error)
-          a%turned_error = error_of(a%change(2), b%change(2), b%turned_error)
+          a%error = error_of(a%has_kinks, a%change(1), b%change(1), b%error)
+          a%turned_error = error_of(.false., a%change(2), b%change(2), b%turned_error)
           a%angle_error = max(a%angle_error, between_angles(a%angle, b%angle))
           change = max(change, a%change(1))
         end associate
@@ -495,13 +497,15 @@ contains
   !! exponentially. With kinks, where friction changes its sense or a force passes zero, errors fall
   !! with the square of the distance of samples and by where the kinks lie between them, and a
   !! change may be small by chance: then they count that were before.
-  elemental function error_of(change, last_change, last_error) result(error)
+  elemental function error_of(has_kinks, change, last_change, last_error) result(error)
+    logical, intent(in) :: has_kinks !! else they show by how changes fall
     real(wp), intent(in) :: change, last_change, last_error
     real(wp) :: error
 
     error = change
-    if (change > max(of_smooth*last_change, last_change**1.5_wp) .and. max(change, last_change) > &
-      settled) error = max(change, 0.25_wp*last_error)
+    if (max(change, last_change) <= settled) return
+    if (has_kinks .or. change > max(of_smooth*last_change, last_change**1.5_wp)) error = &
+      max(change, 0.25_wp*last_error)
   end function error_of
 
   !> Errors of a flywheel: from half as many samples, and from those between. The latter miss the
@@ -512,7 +516,7 @@ contains
     type(sizing_t), intent(in) :: last
     real(wp), intent(inout) :: change
 
-    real(wp), parameter :: rounding = 32.0_wp*epsilon(1.0_wp)
+    real(wp), parameter :: rounding = 32.0_wp*epsilon(1.0_wp), safety = 1.5_wp
     real(wp), dimension(flywheel_values) :: here, scale, least
 
     here = values_of_flywheel(now%flywheel)
@@ -524,7 +528,7 @@ contains
     least = rounding
     least([3, 4, 5]) = rounding/max(here([3, 5, 5]), rounding)
     change = max(change, maxval(now%flywheel_error, mask=now%flywheel_error > 10.0_wp*least))
-    now%flywheel_error = now%flywheel_error + least
+    now%flywheel_error = safety*now%flywheel_error + least
   end subroutine compare_flywheels
 
   pure function values_of_flywheel(flywheel) result(values)
