@@ -1,16 +1,17 @@
 !> The elastic motion in time from a state at prescribed motion of the crank, with estimated errors.
 !!
 !! Every speed is solved with orders and steps that rise from one solution to the next, orders by
-!! two, steps by half. Vibrations too fast for the steps, or beyond the orders, differ from one
-!! solution to the next. A sudden start excites all of them, and strains then converge as slowly as
-!! a power of the order: not the last difference bounds the error, but the sum of those that would
-!! follow, which three solutions tell.
+!! two, steps by half. A sudden start excites vibrations of all orders, and strains then converge as
+!! slowly as a power of the order: not the last difference bounds the error, but the sum of those
+!! that would follow, which three solutions tell. Vibrations too fast for the steps are in no
+!! solution; what steps miss of them is added.
 module transient_responses
   use beam_mesh, only: beam_t
   use constants, only: two_pi
   use crank_laws, only: constant_from, crank_law_t, crank_motion, time_of_turns
   use deformation_model, only: deformation_model_t
   use errors, only: error_of_numerics, error_t, set_error
+  use excited_vibrations, only: excited_vibration_t, find_excited_vibrations, missed_by_steps
   use gauge_values, only: gauge_values_of
   use interruption, only: was_interrupted
   use kinds, only: long, wp
@@ -20,15 +21,15 @@ module transient_responses
   use path_grids, only: new_path_grid, place_grid
   use response_levels, only: damping_of, new_order_model
   use response_peaks, only: sampled_deflections
-  use response_series, only: gauge_series, point_series, strains_along
   use response_types, only: strain_values, stress
   use slow_motions, only: own_squares
   use structures, only: structure_t, vibrating_beams, vibrating_linkage
   use text, only: to_string
+  use transient_quantities, only: of_gauge, of_point, quantities_of
   use transient_motions, only: solve_motion, stages, transient_motion_t
   use transient_starts, only: find_start
   use transient_types, only: speed_transient_t, transient_request_t, transient_t
-  use turn_grids, only: moves, turn_grid_t
+  use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
 
@@ -38,6 +39,9 @@ module transient_responses
   !! None is stated below the rounding of the whole, and below so much of the highest harmonics of
   !! the path, or what a steady state lacks from which it starts.
   real(wp), parameter :: safety = 2.0_wp, rounding = 1.0e-12_wp, of_tail = 100.0_wp
+
+  !> Steps are to miss no more of vibrations than this share of the accuracy.
+  real(wp), parameter :: of_steps = 0.2_wp
 
   !> Slowest and fastest powers of the order by which errors are taken to fall.
   real(wp), parameter :: slowest = 0.5_wp, fastest = 50.0_wp
@@ -49,8 +53,10 @@ module transient_responses
   !! from so many solutions on.
   integer, parameter :: orders_above = 2, most_rounds = 9, most_order = 34, least_rounds = 3
 
-  !> No solution is begun that takes more than this: steps × (unknowns × stages)³, about a minute.
-  real(wp), parameter :: most_work = 1.0e11_wp
+  !> No solution is begun that takes more than this: steps × (unknowns × stages)³, about a minute;
+  !! nor are steps raised for fast vibrations to more than the second. The terms of a step take at
+  !! least the third.
+  real(wp), parameter :: most_work = 1.0e11_wp, most_raised = 1.0e10_wp, of_terms = 4.0e6_wp
 
   !> Errors are to fall by this from one solution to the next; where they do not so many times, one
   !! after another, more of the same does not help.
@@ -65,10 +71,6 @@ module transient_responses
 
   !> A row that would stand so little after the end, in steps between rows, stands at it.
   real(wp), parameter :: slack = 1.0e-9_wp
-
-  !> Quantities at all instants, in the order points (x, y, rotation), gauges (axial strain,
-  !! curvature).
-  integer, parameter :: of_point = 3, of_gauge = 2
 
 contains
 
@@ -106,8 +108,8 @@ contains
     type(speed_transient_t), intent(inout) :: found
 
     type(deformation_model_t) :: model
-    real(wp), allocatable :: older(:, :), before(:, :), series(:, :)
-    real(wp) :: work, accuracy, last_error
+    real(wp), allocatable :: older(:, :), before(:, :), series(:, :), missed(:)
+    real(wp) :: accuracy, last_error
     integer :: round, idle, reached(2)
 
     call find_instants(request, law, found)
@@ -122,19 +124,16 @@ contains
       if (allocated(found%error)) return
       if (round == 1) found%steps = first_steps(structure, request, law, &
         found%crank(1), model)
-      work = found%steps*real(size(found%time), wp)*(real(stages, wp)*model%layout%unknowns)**3
-      if (.not. constant_from(law) > found%time(size(found%time))) work = min(work, (found%steps* &
-        (request%instants + real(count(found%time < law%ramp), wp)))*(real(stages, wp)* &
-        model%layout%unknowns)**3)
-      if (work > most_work .and. round > least_rounds) then
+      if (work_of(request, law, found, model, found%steps) > most_work .and. &
+        round > least_rounds) then
         found%order = reached(1)
         found%steps = reached(2)
         exit
       end if
-      call solve_once(structure, request, law, model, store, found, series)
+      call solve_once(structure, request, law, model, store, before, found, series, missed)
       if (allocated(found%error) .or. was_interrupted()) return
       if (round >= least_rounds) then
-        call evaluate(structure, request, older, before, series, found)
+        call evaluate(structure, request, older, before, series, missed, found)
         if (found%largest_error <= accuracy) return
         idle = merge(0, idle + 1, found%largest_error <= least_gain*last_error)
         last_error = found%largest_error
@@ -237,6 +236,22 @@ contains
     steps = max(steps, min(wanted, 1000))
   end function first_steps
 
+  !> What a solution costs: matrices of all steps, of a turn once at constant speed.
+  pure real(wp) function work_of(request, law, found, model, steps)
+    type(transient_request_t), intent(in) :: request
+    type(crank_law_t), intent(in) :: law
+    type(speed_transient_t), intent(in) :: found !! with times
+    type(deformation_model_t), intent(in) :: model
+    integer, intent(in) :: steps                 !! between rows
+
+    real(wp) :: rows
+
+    rows = size(found%time)
+    if (.not. constant_from(law) > found%time(size(found%time))) rows = min(rows, &
+      request%instants + real(count(found%time < law%ramp), wp))
+    work_of = steps*rows*max(of_terms, (real(stages, wp)*model%layout%unknowns)**3)
+  end function work_of
+
   !> The terms at one crank angle.
   subroutine grid_at(structure, model, crank, grid, reached)
     class(structure_t), intent(in) :: structure
@@ -253,17 +268,20 @@ contains
   end subroutine grid_at
 
   !> One solution, as series of all quantities.
-  subroutine solve_once(structure, request, law, model, store, found, series)
+  subroutine solve_once(structure, request, law, model, store, before, found, series, missed)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
     type(crank_law_t), intent(in) :: law
     type(deformation_model_t), intent(in) :: model
     type(link_store_t), intent(inout) :: store
-    type(speed_transient_t), intent(inout) :: found  !! with order and steps
+    real(wp), allocatable, intent(in) :: before(:, :)  !! series of the solution before, if any
+    type(speed_transient_t), intent(inout) :: found    !! with order and steps
     real(wp), allocatable, intent(out) :: series(:, :) !! (instants, quantities)
+    real(wp), allocatable, intent(out) :: missed(:)    !! (quantities) vibrations not followed
 
     type(turn_grid_t) :: grid
     type(transient_motion_t) :: motion
+    type(excited_vibration_t), allocatable :: vibration(:)
     real(wp), allocatable :: start(:), damping(:)
     real(wp) :: lack
 
@@ -272,6 +290,10 @@ contains
     damping = damping_of(request%response%damping, grid)
     call find_start(structure, request, law, found%order, grid, store, start, found%error, lack)
     if (allocated(found%error)) return
+    call find_excited_vibrations(structure, request, law, found%time, start, damping, grid, &
+      vibration, found%error)
+    if (allocated(found%error)) return
+    if (allocated(before)) call raise_steps
     call solve_motion(structure, model, law, damping, request%response%terms%axial, &
       found%time, request%instants, found%steps, start, motion, found%error)
     found%made = found%made + motion%made
@@ -280,6 +302,34 @@ contains
     found%least_error = rounding + of_tail*grid%tail + safety*lack
     call find_series(structure, request, found%crank, model, motion, series, found%deflection, &
       found%error)
+    if (allocated(found%error)) return
+    missed = missed_by_steps(vibration, found%time, found%steps, stages, size(series, 2))
+
+  contains
+
+    !> As many steps as follow the vibrations, if these are not too many.
+    subroutine raise_steps
+      real(wp) :: displacement(size(request%response%points)), strain(size(request%response%gauges))
+      integer :: steps, enough
+
+      steps = found%steps
+      enough = 0
+      do
+        call relative_errors(structure, request, missed_by_steps(vibration, found%time, steps, &
+          stages, size(before, 2)), before, displacement, strain)
+        ! Displacements are those of slower vibrations than strains.
+        if (enough == 0 .and. maxval([displacement, 0.0_wp]) <= of_steps* &
+          request%response%accuracy) enough = steps
+        if (enough > 0 .and. maxval([strain, 0.0_wp]) <= of_steps*request%response%accuracy) then
+          enough = steps
+          exit
+        end if
+        steps = (3*steps + 1)/2
+        if (work_of(request, law, found, model, steps) > most_raised) exit
+      end do
+      if (enough > 0) found%steps = enough
+    end subroutine raise_steps
+
   end subroutine solve_once
 
   !> All quantities at all instants, some instants at a time.
@@ -294,99 +344,101 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(turn_grid_t) :: grid
-    real(wp), allocatable :: y(:, :), axial(:, :), curvature(:, :), moved(:, :)
+    real(wp), allocatable :: y(:, :), here(:, :)
     integer, allocatable :: rows(:)
-    integer :: at, block, first, i, n
+    integer :: at, block, i, n
 
     block = min(at_a_time, size(crank))
     call new_path_grid(structure, model, block, grid, error)
     if (allocated(error)) return
-    allocate (axial(block, 1), curvature(block, 1), deflection(size(grid%integrals)), &
-      source=0.0_wp)
-    associate (points => request%response%points, gauges => request%response%gauges)
-      allocate (series(size(crank), of_point*size(points) + of_gauge*size(gauges)))
-      do at = 1, size(crank), block
-        ! The last are repeated to fill the block.
-        rows = [(min(i, size(crank)), i=at, at + block - 1)]
-        n = min(block, size(crank) + 1 - at)
-        call place_grid(structure, crank(rows), grid, error)
-        if (allocated(error)) return
-        y = transpose(motion%state(:grid%unknowns, rows))
-        deflection = max(deflection, sampled_deflections(grid, y))
-        do i = 1, size(points)
-          first = of_point*(i - 1) + 1
-          moved = point_series(grid, points(i)%body, points(i)%place, y)
-          series(at:at + n - 1, first:first + 2) = moved(:n, :)
-        end do
-        do i = 1, size(gauges)
-          first = of_point*size(points) + of_gauge*(i - 1) + 1
-          if (moves(grid, gauges(i)%body)) then
-            moved = gauge_series(grid, gauges(i)%body, gauges(i)%xi, y)
-            series(at:at + n - 1, first:first + 1) = moved(:n, :2)
-            cycle
-          end if
-          call strains_along(grid, gauges(i)%body, [gauges(i)%xi], y, axial, curvature)
-          series(at:at + n - 1, first) = axial(:n, 1)
-          series(at:at + n - 1, first + 1) = curvature(:n, 1)
-        end do
-      end do
-    end associate
+    allocate (deflection(size(grid%integrals)), source=0.0_wp)
+    do at = 1, size(crank), block
+      ! The last are repeated to fill the block.
+      rows = [(min(i, size(crank)), i=at, at + block - 1)]
+      n = min(block, size(crank) + 1 - at)
+      call place_grid(structure, crank(rows), grid, error)
+      if (allocated(error)) return
+      y = transpose(motion%state(:grid%unknowns, rows))
+      deflection = max(deflection, sampled_deflections(grid, y))
+      here = quantities_of(grid, request%response, y)
+      if (at == 1) allocate (series(size(crank), size(here, 2)))
+      series(at:at + n - 1, :) = here(:n, :)
+    end do
   end subroutine find_series
 
   !> Values and errors from the last three solutions.
-  subroutine evaluate(structure, request, older, before, series, found)
+  subroutine evaluate(structure, request, older, before, series, missed, found)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
     real(wp), intent(in) :: older(:, :), before(:, :), series(:, :) !! (instants, quantities)
+    real(wp), intent(in) :: missed(:) !! (quantities) by steps
     type(speed_transient_t), intent(inout) :: found
 
-    type(linkage_t) :: linkage
     type(beam_t), allocatable :: beams(:)
-    real(wp) :: change(size(series, 2)), largest(size(series, 2)), length, strain, tension, bend
+    real(wp) :: change(size(series, 2))
     integer :: first, i, k, n
 
-    linkage = vibrating_linkage(structure)
     beams = vibrating_beams(structure)
     n = size(series, 1)
-    change = what_remains(maxval(abs(series - before), dim=1), maxval(abs(before - older), dim=1), &
-      found%order)
-    largest = maxval(abs(series), dim=1)
+    change = missed + safety*what_remains(maxval(abs(series - before), dim=1), maxval(abs(before - &
+      older), dim=1), found%order)
     associate (points => request%response%points, gauges => request%response%gauges)
       found%displacement = reshape([((series(k, of_point*(i - 1) + 1:of_point*i), i=1, &
         size(points)), k=1, n)], [of_point, size(points), n])
       found%displacement_error = spread(0.0_wp, 1, size(points))
-      do i = 1, size(points)
-        first = of_point*(i - 1) + 1
-        length = sqrt(maxval(series(:, first)**2 + series(:, first + 1)**2))
-        found%displacement_error(i) = max(norm2(change(first:first + 1))/max(length, &
-          tiny(1.0_wp)), change(first + 2)/max(largest(first + 2), by_nature*length/ &
-          linkage%bodies(points(i)%body)%length, tiny(1.0_wp)))
-      end do
       found%strain_error = spread(0.0_wp, 1, size(gauges))
       if (allocated(found%strain)) deallocate (found%strain)
       allocate (found%strain(strain_values, size(gauges), n))
       do i = 1, size(gauges)
         first = of_point*size(points) + of_gauge*(i - 1) + 1
-        associate (gauge => gauges(i), section => request%response%section(gauges(i)%body))
-          do k = 1, n
-            found%strain(:, i, k) = gauge_values_of(gauge, beams(gauge%body), section, &
-              series(k, first), series(k, first + 1))
-          end do
-          strain = max(by_nature*(largest(first) + section%outer*largest(first + 1)), tiny(1.0_wp))
-          tension = change(first)
-          bend = section%outer*change(first + 1)
-          ! The stress has the errors of both.
-          found%strain_error(i) = max(tension/max(largest(first), strain), &
-            bend/max(section%outer*largest(first + 1), strain), (tension + bend)/ &
-            max(maxval(abs(found%strain(stress, i, :)))/section%modulus, strain))
-        end associate
+        do k = 1, n
+          found%strain(:, i, k) = gauge_values_of(gauges(i), beams(gauges(i)%body), &
+            request%response%section(gauges(i)%body), series(k, first), series(k, first + 1))
+        end do
       end do
     end associate
-    found%displacement_error = safety*found%displacement_error + found%least_error
-    found%strain_error = safety*found%strain_error + found%least_error
-    found%largest_error = max(maxval([0.0_wp, found%displacement_error]), maxval([0.0_wp, &
-      found%strain_error]))
+    call relative_errors(structure, request, change, series, found%displacement_error, &
+      found%strain_error)
+    found%displacement_error = found%displacement_error + found%least_error
+    found%strain_error = found%strain_error + found%least_error
+    found%largest_error = maxval([found%displacement_error, found%strain_error, 0.0_wp])
   end subroutine evaluate
+
+  !> Errors of points and gauges from those of their quantities, relative to the largest values.
+  subroutine relative_errors(structure, request, change, series, displacement, strain)
+    class(structure_t), intent(in) :: structure
+    type(transient_request_t), intent(in) :: request
+    real(wp), intent(in) :: change(:)        !! (quantities) errors
+    real(wp), intent(in) :: series(:, :)     !! (instants, quantities)
+    real(wp), intent(out) :: displacement(:) !! (points)
+    real(wp), intent(out) :: strain(:)       !! (gauges)
+
+    type(linkage_t) :: linkage
+    real(wp) :: largest(size(series, 2)), length, least, tension, bend
+    integer :: first, i
+
+    linkage = vibrating_linkage(structure)
+    largest = maxval(abs(series), dim=1)
+    do i = 1, size(displacement)
+      first = of_point*(i - 1) + 1
+      length = sqrt(maxval(series(:, first)**2 + series(:, first + 1)**2))
+      displacement(i) = max(norm2(change(first:first + 1))/max(length, tiny(1.0_wp)), change(first &
+        + 2)/max(largest(first + 2), by_nature*length/linkage%bodies(request%response%points(i)% &
+        body)%length, tiny(1.0_wp)))
+    end do
+    do i = 1, size(strain)
+      first = of_point*size(displacement) + of_gauge*(i - 1) + 1
+      associate (outer => request%response%section(request%response%gauges(i)%body)%outer)
+        tension = change(first)
+        bend = outer*change(first + 1)
+        least = max(by_nature*(largest(first) + outer*largest(first + 1)), tiny(1.0_wp))
+        ! The stress has the errors of both.
+        strain(i) = max(tension/max(largest(first), least), bend/max(outer*largest(first + 1), &
+          least), (tension + bend)/max(maxval(abs(series(:, first)) + outer*abs(series(:, first + &
+          1))), least))
+      end associate
+    end do
+  end subroutine relative_errors
 
   !> What solutions of higher orders would change yet, from the changes by the last two orders:
   !! errors fall as a power of the order, `C n^(-p)`, whose differences these are. Not less than

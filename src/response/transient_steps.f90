@@ -15,8 +15,8 @@ module transient_steps
   implicit none (type, external)
   private
 
-  public :: transient_step_t, make_steps, take_steps, elastic_state_t, advance, kick, momenta_of, &
-    rates_of
+  public :: transient_step_t, make_steps, take_steps, elastic_state_t, add_damping, advance, kick, &
+    momenta_of, rates_of
 
   !> What a step does to the state (y, P): its change is `change · state + push`.
   type :: transient_step_t
