@@ -60,7 +60,7 @@ module multiplier_crossings
 contains
 
   !> All crossings of the vibrations wanted between the least and the greatest speed of a request,
-  !! in ascending order of the speed; of others that exchange numbers with these there, too.
+  !! in ascending order of the speed.
   !!
   !! Errors: the crank does not turn fully; own modes of a link could not be found.
   subroutine find_crossings(structure, request, frequency, threads, store, levels, crossing, gap, &
@@ -112,7 +112,7 @@ contains
       call solve(crossing(i))
     end do
     !$omp end parallel do
-    crossing = pack(crossing, crossing%speed > 0.0_wp)
+    crossing = pack(crossing, crossing%speed > 0.0_wp .and. crossing%mode <= request%modes)
 
   contains
 
@@ -220,7 +220,7 @@ contains
               new%angle = one
               new%mode = usual_mode(j, m)
               ! Numbers may be exchanged next to it.
-              if (min(one%mode, other%mode, new%mode) > request%modes) cycle
+              if (new%mode > request%modes) new%mode = min(one%mode, other%mode)
               call find_level(here%speed, new%level)
               if (allocated(error)) return
               crossing = [crossing, new]
