@@ -123,17 +123,17 @@ contains
     type(crossing_t), allocatable :: crossing(:)
     type(candidate_t), allocatable :: candidate(:)
     real(wp), allocatable :: rough(:), at_rest(:)
+    real(wp) :: range(2) !! of the speeds asked for [rad/s]
     integer :: i
 
     allocate (levels(0))
     left_out = 0
     wider = request
-    wider%speed = sign([minval(abs(request%speed))*(1.0_wp - beyond), maxval(abs( &
-      request%speed))*(1.0_wp + beyond)], request%speed(1))
+    range = [minval(abs(request%speed)), maxval(abs(request%speed))]
+    wider%speed = sign(range*[1.0_wp - beyond, 1.0_wp + beyond], request%speed(1))
     call find_crossings(structure, wider, frequency, threads, store, levels, crossing, gap, error)
     if (allocated(error)) return
-    gap = pack(gap, gap%speed(2) > minval(abs(request%speed)) .and. gap%speed(1) < &
-      maxval(abs(request%speed)))
+    gap = pack(gap, gap%speed(2) > range(1) .and. gap%speed(1) < range(2))
     allocate (candidate(size(crossing)), rough(size(crossing)), at_rest(size(crossing)))
     do i = 1, size(crossing)
       candidate(i)%crossing = crossing(i)
@@ -162,8 +162,7 @@ contains
     !$omp end parallel do
     do i = 1, size(candidate)
       if (candidate(i)%found) cycle
-      gap = [gap, gap_t(spread(min(max(candidate(i)%crossing%speed, minval(abs(request%speed))), &
-        maxval(abs(request%speed))), 1, 2))]
+      gap = [gap, gap_t(spread(min(max(candidate(i)%crossing%speed, range(1)), range(2)), 1, 2))]
     end do
     candidate = pack(candidate, candidate%found .and. .not. is_outside(candidate%speed))
     candidate = pack(candidate, .not. [(is_again(i), i=1, size(candidate))])
@@ -196,7 +195,7 @@ contains
     elemental logical function is_outside(speed)
       real(wp), intent(in) :: speed
 
-      is_outside = speed < minval(abs(request%speed)) .or. speed > maxval(abs(request%speed))
+      is_outside = speed < range(1) .or. speed > range(2)
     end function is_outside
 
   end subroutine find_critical_speeds

@@ -81,11 +81,13 @@ contains
         do side = -1, 1, 2
           call approximate_solution(plan, level%basis(slow), motion, speed, damping, load, y, &
             centre + side*eta(i))
-          if (tolerance < 1.0_wp) call solve_periodic(level%grid, plan, level%basis(slow), motion, &
-            speed, damping, terms, load, tolerance, y, iterations, remainder, error, &
-            exponent=centre + side*eta(i))
-          if (allocated(error)) exit attempt
-          if (tolerance < 1.0_wp) lack = max(lack, extrapolating*remainder)
+          if (tolerance < 1.0_wp) then
+            call solve_periodic(level%grid, plan, level%basis(slow), motion, speed, damping, &
+              terms, load, tolerance, y, iterations, remainder, error, exponent=centre + &
+              side*eta(i))
+            if (allocated(error)) exit attempt
+            lack = max(lack, extrapolating*remainder)
+          end if
           odd(:, :, i) = odd(:, :, i) + 0.5_wp*side*(eta(i) - square/eta(i))*y
           even(:, :, i) = even(:, :, i) + 0.5_wp*(eta(i)**2 - square)*y
         end do

@@ -21,7 +21,7 @@ module transient_responses
   use path_grids, only: new_path_grid, place_grid
   use response_levels, only: damping_of, new_order_model
   use response_peaks, only: sampled_deflections
-  use response_types, only: strain_values, stress
+  use response_types, only: strain_values
   use slow_motions, only: own_squares
   use structures, only: structure_t, vibrating_beams, vibrating_linkage
   use text, only: to_string
