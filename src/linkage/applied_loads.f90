@@ -17,7 +17,7 @@ module applied_loads
   public :: add_conservative_loads, add_prescribed_loads, add_standing_loads, add_moving_loads, &
     is_moving, moving_force, moving_couple, forced_places, forces_at_places, &
     applied_potential, generalised_force, has_standing_loads, has_moving_loads, spring_pulls, &
-    damper_pulls, spring_scale
+    damper_pulls, spring_scale, load_switches
 
 contains
 
@@ -407,6 +407,38 @@ contains
     if (load%is_carried) force = turned(load%force, pose%direction(:, load%at(1)%body))
   end function force_of
 
+  !> What decides on the direction of loads against the motion, and on the share of those that act
+  !! in one direction of it only: the arguments of tanh.
+  pure function load_switches(linkage, pose, now) result(switches)
+    type(linkage_t), intent(in) :: linkage        !! its loads
+    type(pose_t), intent(in) :: pose              !! positions and directions
+    type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
+    real(wp) :: switches(2, 2*load_count(linkage)) !! of each load the velocity against which it
+                                                  !! acts, and that along it; 0: none [-]
+
+    real(wp) :: velocity(2), value(2)
+    integer :: i
+
+    switches = 0.0_wp
+    do i = 1, load_count(linkage)
+      associate (load => linkage%loads(i))
+        if (.not. is_moving(load)) cycle
+        value = [load%couple, 0.0_wp]
+        select case (load%kind)
+        case (applies_force)
+          velocity = velocity_at(linkage, pose, now, load%at(1))
+          value = force_of(pose, load)
+        case (applies_couple)
+          velocity = [now%turn(load%body(1)), 0.0_wp]
+        case default
+          velocity = [load_rate(linkage, pose, now, load), 0.0_wp]
+        end select
+        if (load%resisting > 0.0_wp) switches(:, 2*i - 1) = velocity/load%smooth
+        if (load%during /= acts_always) switches(1, 2*i) = along_value(load, velocity, value)
+      end associate
+    end do
+  end function load_switches
+
   !> Share of a load that acts in one direction of the motion only: from 0 to 1, half at rest.
   pure function share_of(load, velocity, value) result(share)
     type(applied_load_t), intent(in) :: load
@@ -414,9 +446,19 @@ contains
     real(wp) :: share
 
     share = 0.0_wp
-    if (norm2(value) > 0.0_wp) share = 0.5_wp*(1.0_wp + tanh(load%during* &
-      dot_product(velocity, value)/(norm2(value)*load%smooth)))
+    if (norm2(value) > 0.0_wp) share = 0.5_wp*(1.0_wp + tanh(load%during*along_value(load, &
+      velocity, value)))
   end function share_of
+
+  !> The velocity along a load, over that within which it changes its sign smoothly; of no load 0.
+  pure function along_value(load, velocity, value) result(along)
+    type(applied_load_t), intent(in) :: load
+    real(wp), intent(in) :: velocity(2), value(2)
+    real(wp) :: along
+
+    along = 0.0_wp
+    if (norm2(value) > 0.0_wp) along = dot_product(velocity, value)/(norm2(value)*load%smooth)
+  end function along_value
 
   !> Resistance of constant magnitude, against the motion.
   pure function resistance(load, speed)

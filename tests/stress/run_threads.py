@@ -40,8 +40,9 @@ def execute(program, deck, threads, out):
     shutil.rmtree(out, ignore_errors=True)
     status = subprocess.run([program, "--quiet", "--threads", str(threads), "--out", out, deck], stdin=subprocess.DEVNULL,
                             capture_output=True, timeout=1200, check=False).returncode
-    found = glob(os.path.join(out, "*", ""))
-    return status, found[0] if found else out
+    # A hidden deck has a hidden folder.
+    found = os.listdir(out) if os.path.isdir(out) else []
+    return status, os.path.join(out, found[0]) if found else out
 
 
 def difference(first, second):

@@ -56,6 +56,10 @@ module adaptive_integration
   real(wp), parameter :: explicit_reach = 3.0_wp, explicit_evaluations = 13.0_wp
   integer, parameter :: most_patience = 64
 
+  !> A load that follows tanh(s) begins to turn over at the first |s|, and is turned over at the
+  !! last; a step over its zero has at most the second change of s.
+  real(wp), parameter :: begin_of_switch = 2.0_wp, widest_switch = 4.0_wp, turned_over = 20.0_wp
+
   !> Passed through the library to `rates_for_library`.
   type :: request_t
     class(rate_system_t), pointer :: system => null()
@@ -241,7 +245,8 @@ contains
   end subroutine close_integrator
 
   !> Takes one step, as long as the error allows but not beyond `limit`, which is met exactly. State
-  !! and time may have been changed since the last step.
+  !! and time may have been changed since the last step. No step passes over a load that turns over
+  !! (`switches`): one ends where that begins, and those over it are short.
   !!
   !! Errors: no step is short enough, because the rates are not smooth or do not exist. State and
   !! time are unchanged then.
@@ -253,22 +258,75 @@ contains
     real(wp), intent(inout) :: state(:)                   !! (unknowns) at `time`
     type(error_t), allocatable, intent(out) :: error      !! allocated if no step was made
 
-    real(wp) :: before
-    logical :: found
+    real(wp) :: time_before, before(size(state)), step
+    real(wp), allocatable :: switches(:, :)
+    logical :: is_implicit
 
-    before = time
-    if (integrator%is_stiff) then
-      call take_implicit_step(integrator, system, time, limit, state, found)
-      if (found) then
-        call look_at_gain(integrator, time - before)
-        return
-      end if
+    time_before = time
+    before = state
+    switches = system%switches(state)
+    do
+      call take_step(integrator, system, time, limit, state, is_implicit, error)
+      if (allocated(error)) return
+      if (size(switches) == 0) exit
+      step = (time - time_before)*share_before_switch(switches, system%switches(state))
+      ! Shorter than what time is rounded to, nothing is seen.
+      if (step >= time - time_before .or. step < 16.0_wp*epsilon(1.0_c_double)*abs(time)) exit
+      integrator%step = step
+      time = time_before
+      state = before
+    end do
+    integrator%steps = integrator%steps + 1_long
+    if (is_implicit) then
+      integrator%implicit_steps = integrator%implicit_steps + 1_long
+      call look_at_gain(integrator, time - time_before)
+    else
+      call look_at_stiffness(integrator, system, time, state, time - time_before)
+    end if
+  end subroutine advance
+
+  !> The share of a step after which it should end because a load turns over in it: one where it
+  !! need not. The way of each s is taken as straight.
+  pure function share_before_switch(before, after) result(share)
+    real(wp), intent(in) :: before(:, :), after(:, :) !! `switches` on both sides of the step
+    real(wp) :: share
+
+    real(wp) :: way(2), length, nearest
+    integer :: k
+
+    share = 1.0_wp
+    if (size(after) /= size(before)) return
+    do k = 1, size(before, 2)
+      way = after(:, k) - before(:, k)
+      length = norm2(way)
+      if (length <= widest_switch) cycle
+      nearest = -dot_product(before(:, k), way/length)/length
+      if (nearest <= 0.0_wp .or. nearest >= 1.0_wp) cycle
+      if (norm2(before(:, k) + nearest*way) > turned_over) cycle
+      share = min(share, max(nearest - begin_of_switch/length, 0.5_wp*widest_switch/length))
+    end do
+  end function share_before_switch
+
+  !> One step, of the method that serves here.
+  !!
+  !! Errors: as of `advance`.
+  subroutine take_step(integrator, system, time, limit, state, is_implicit, error)
+    type(integrator_t), intent(inout) :: integrator
+    class(rate_system_t), intent(inout), target :: system
+    real(wp), intent(inout) :: time
+    real(wp), intent(in) :: limit
+    real(wp), intent(inout) :: state(:)
+    logical, intent(out) :: is_implicit !! the step was one of the implicit method
+    type(error_t), allocatable, intent(out) :: error
+
+    is_implicit = integrator%is_stiff
+    if (is_implicit) then
+      call take_implicit_step(integrator, system, time, limit, state, is_implicit)
+      if (is_implicit) return
       call return_to_explicit(integrator)
     end if
     call take_explicit_step(integrator, system, time, limit, state, error)
-    if (.not. allocated(error)) call look_at_stiffness(integrator, system, time, state, time - &
-      before)
-  end subroutine advance
+  end subroutine take_step
 
   !> One step of the implicit method.
   subroutine take_implicit_step(integrator, system, time, limit, state, found)
@@ -288,8 +346,6 @@ contains
     integrator%evaluations = integrator%evaluations + integrator%implicit%evaluations - evaluations
     if (.not. found) return
     integrator%step = integrator%implicit%step
-    integrator%steps = integrator%steps + 1_long
-    integrator%implicit_steps = integrator%implicit_steps + 1_long
   end subroutine take_implicit_step
 
   !> After a step of the implicit method: the explicit one goes on where it would need fewer
@@ -393,7 +449,6 @@ contains
       call set_error(error, error_of_numerics, "the steps of the integration shrink to nothing")
       return
     end if
-    integrator%steps = integrator%steps + 1_long
     integrator%step = real(step, wp)
     time = real(library_time, wp)
     ! Both have been rounded to the precision of the library.

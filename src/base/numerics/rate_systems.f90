@@ -10,6 +10,7 @@ module rate_systems
   type, abstract :: rate_system_t
   contains
     procedure(rates_interface), deferred :: find_rates
+    procedure :: switches => no_switches
   end type rate_system_t
 
   abstract interface
@@ -24,5 +25,20 @@ module rate_systems
                                                   !! tried
     end subroutine rates_interface
   end interface
+
+contains
+
+  !> Arguments s of the loads that turn over, like tanh(s) or, against a velocity in the plane, like
+  !! tanh(|s|) s/|s|. A step that is long against |s| = 1 sees little of it: where its error, by the
+  !! place of its stages, is estimated as none, or where such a load passes zero just before and so
+  !! has one course on both sides.
+  function no_switches(self, state) result(switches)
+    class(rate_system_t), intent(in) :: self !! the system of equations
+    real(wp), intent(in) :: state(:)         !! (unknowns) y
+    real(wp), allocatable :: switches(:, :)  !! (2, always as many) s, or s and 0 [-]; empty: none,
+                                             !! or no rates here
+
+    allocate (switches(2, 0))
+  end function no_switches
 
 end module rate_systems

@@ -18,6 +18,7 @@ module four_bar_rates
   use linkages, only: linkage_t
   use load_tables, only: refuse_beyond_tables
   use loop_curves, only: curve_point_t, find_point, loop_curve_t
+  use motion_switches, only: has_switches, switches_at
   use pose_types, only: pose_t
   use rigid_bodies, only: rigid_body_t
   use whole_systems, only: whole_system_t
@@ -60,6 +61,7 @@ module four_bar_rates
     type(error_t), allocatable :: ended !! the table that ended, when `stop` says so
   contains
     procedure :: find_rates => rates_of_motion
+    procedure :: switches => switches_of_motion
   end type moving_four_bar_t
 
   !> A four-bar at an instant of its motion.
@@ -97,6 +99,39 @@ contains
     rates(rate_number) = instant%rate
     rates(work_number) = instant%driving*state(rate_number) + instant%driven%to_rotor
   end subroutine rates_of_motion
+
+  !> Arguments of the loads that turn over with the motion.
+  function switches_of_motion(self, state) result(switches)
+    class(moving_four_bar_t), intent(in) :: self
+    real(wp), intent(in) :: state(:)        !! θ2, θ3, θ4, ṡ, work
+    real(wp), allocatable :: switches(:, :) !! as of `switches_at`; empty: none, or no position
+
+    type(curve_point_t) :: point
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t) :: per, now
+    logical :: found
+
+    allocate (switches(2, 0))
+    if (.not. has_switches(self%linkage, self%gear)) return
+    call find_point(self%curve, state(1:3), point, found)
+    if (.not. found) return
+    call find_state(self, state, point, pose, per, now)
+    switches = switches_at(self%linkage, pose, now, self%gear, now%turn(1))
+  end function switches_of_motion
+
+  !> Pose, velocities per ṡ and velocities at a point of the curve.
+  subroutine find_state(self, state, point, pose, per, now)
+    class(moving_four_bar_t), intent(in) :: self
+    real(wp), intent(in) :: state(:)
+    type(curve_point_t), intent(in) :: point
+    type(pose_t), intent(out) :: pose
+    type(kinematic_coefficients_t), intent(out) :: per, now
+
+    call find_curve_pose(self%linkage, point, state(1) + two_pi*self%turns(1), pose, per)
+    now = per
+    now%turn = state(rate_number)*per%turn
+    now%pin = state(rate_number)*per%pin
+  end subroutine find_state
 
   !> The motion at a state: s̈, motor, gear and loads.
   !!
@@ -194,7 +229,7 @@ contains
     integer :: b
 
     associate (linkage => self%linkage, point => instant%point)
-      call find_curve_pose(linkage, point, state(1) + two_pi*self%turns(1), pose, per)
+      call find_state(self, state, point, pose, per, now)
       call refuse_beyond_tables(linkage, pose, origin, error)
       found = .not. allocated(error)
       if (.not. found) then
@@ -202,9 +237,6 @@ contains
         call move_alloc(error, self%ended)
         return
       end if
-      now = per
-      now%turn = state(rate_number)*per%turn
-      now%pin = state(rate_number)*per%pin
       spring_force = 0.0_wp
       pin_load = 0.0_wp
       call add_conservative_loads(linkage, pose, of_springs, spring_force)

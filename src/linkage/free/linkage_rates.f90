@@ -27,6 +27,7 @@ module linkage_rates
   use linkages, only: drives_angle, linkage_t
   use load_tables, only: refuse_beyond_tables
   use motion_charts, only: accelerations, find_on_chart, motion_chart_t, velocities
+  use motion_switches, only: has_switches, switches_at
   use pose_types, only: pose_t
   use poses, only: dead_point_sine, place_groups, place_links
   use rigid_bodies, only: central_inertia, mass_centre, rigid_body_t
@@ -74,6 +75,7 @@ module linkage_rates
                                                 !! that ended, when `stop` says so
   contains
     procedure :: find_rates => rates_of_motion
+    procedure :: switches => switches_of_motion
   end type moving_linkage_t
 
   !> A linkage at an instant of its motion.
@@ -275,6 +277,24 @@ contains
     rates(f + 1:2*f) = instant%acceleration
     rates(2*f + 1) = instant%power
   end subroutine rates_of_motion
+
+  !> Arguments of the loads that turn over with the motion.
+  function switches_of_motion(self, state) result(switches)
+    class(moving_linkage_t), intent(in) :: self
+    real(wp), intent(in) :: state(:)        !! coordinates, rates, work
+    real(wp), allocatable :: switches(:, :) !! as of `switches_at`; empty: none, or no position
+
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t), allocatable :: per(:)
+    type(kinematic_coefficients_t) :: now
+    logical :: found
+
+    allocate (switches(2, 0))
+    if (.not. has_switches(self%whole%linkage, self%gear)) return
+    call find_state(self, state, pose, per, now, found)
+    if (found) switches = switches_at(self%whole%linkage, pose, now, self%gear, &
+      rate_of_drive(self, pose, now, 1))
+  end function switches_of_motion
 
   !> The motion at a state: ü, motor, gear and loads. Losses in the gear are found as by
   !! `find_instant` of four-bars.

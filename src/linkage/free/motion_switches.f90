@@ -1,0 +1,50 @@
+!> Where loads turn over with the motion of a linkage.
+module motion_switches
+  use applied_loads, only: has_moving_loads, load_switches
+  use gears, only: gear_t
+  use joint_friction, only: friction_rates, has_friction
+  use kinds, only: wp
+  use kinematic_coefficients, only: kinematic_coefficients_t
+  use linkages, only: linkage_t
+  use pose_types, only: pose_t
+  implicit none (type, external)
+  private
+
+  public :: switches_at, has_switches
+
+contains
+
+  !> Whether any load turns over with the motion.
+  pure function has_switches(linkage, gear) result(has)
+    type(linkage_t), intent(in) :: linkage !! its frictions and loads
+    type(gear_t), intent(in) :: gear       !! of the first drive
+    logical :: has
+
+    has = has_friction(linkage) .or. has_moving_loads(linkage) .or. gear%efficiency < 1.0_wp
+  end function has_switches
+
+  !> Velocities of what rubs, of loads, and of the driven body where its gear has losses, over those
+  !! within which they turn over smoothly; see `rate_systems`.
+  pure function switches_at(linkage, pose, now, gear, rate) result(switches)
+    type(linkage_t), intent(in) :: linkage  !! its frictions and loads
+    type(pose_t), intent(in) :: pose        !! positions and directions
+    type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
+    type(gear_t), intent(in) :: gear        !! of the first drive
+    real(wp), intent(in) :: rate            !! of this drive [rad/s] or [m/s]
+    real(wp), allocatable :: switches(:, :) !! (2, frictions, loads twice, gear) [-]
+
+    real(wp), allocatable :: of_loads(:, :)
+    integer :: f
+
+    of_loads = load_switches(linkage, pose, now)
+    f = 0
+    if (has_friction(linkage)) f = size(linkage%frictions)
+    allocate (switches(2, f + size(of_loads, 2) + 1))
+    switches = 0.0_wp
+    if (f > 0) switches(1, :f) = friction_rates(linkage, pose, now, 1.0_wp)/ &
+      linkage%frictions%smooth
+    switches(:, f + 1:f + size(of_loads, 2)) = of_loads
+    if (gear%efficiency < 1.0_wp) switches(1, size(switches, 2)) = rate/gear%smooth
+  end function switches_at
+
+end module motion_switches
