@@ -3,7 +3,7 @@
 !!
 !! Angles of multipliers are found at speeds so near each other that the fastest turns by a small
 !! part of the circle; where one is not found where it is expected, speeds between are added, and
-!! before the first where multipliers have met at 1 there.
+!! before the first where multipliers have met at 1 there, for crossings by which they met.
 !! Between speeds at which an angle has different signs it is solved for.
 module multiplier_crossings
   use campbell_types, only: gap_t
@@ -78,8 +78,9 @@ contains
     type(angles_t), allocatable :: point(:), between(:)
     integer, allocatable :: level(:), bad(:)
     integer, allocatable :: partner(:, :) !! (angles, points but the last) at the next point
-    integer :: i, k
+    integer :: i, k, first !! point of those asked for
 
+    first = 1
     point = first_points([minval(abs(request%speed)), maxval(abs(request%speed))], frequency)
     call find_all(point)
     do i = 1, most_refinements
@@ -88,12 +89,15 @@ contains
       between = point(:1)
       between%speed = point(1)%speed*exp(-step)
       call find_all(between)
-      if (.not. allocated(error)) call insert([0], between, point)
+      if (allocated(error)) return
+      call insert([0], between, point)
+      first = first + 1
     end do
     do i = 1, most_refinements
       if (allocated(error)) return
       bad = pack([(k, k=1, size(point) - 1)], is_bad(point))
       if (size(bad) == 0) exit
+      first = first + count(bad < first)
       if (allocated(between)) deallocate (between)
       allocate (between(size(bad)))
       between%speed = sqrt(point(bad)%speed*point(bad + 1)%speed)
@@ -214,6 +218,7 @@ contains
               change = wrapped(other%turns - one%turns)
               if (abs(one%turns) > near_one .or. ((one%turns > 0.0_wp) .eqv. (one%turns + change &
                 > 0.0_wp))) cycle
+              if (j < first .and. .not. is_real_from(j + 1, partner(m, j))) cycle
               new%ends(:, 1) = [here%speed, one%turns]
               new%ends(:, 2) = [there%speed, one%turns + change]
               new%slope = change/(there%speed - here%speed)
@@ -229,6 +234,23 @@ contains
         end associate
       end do
     end subroutine bracket
+
+    !> Whether an angle before the points asked for stays real at 1 up to the first of them.
+    pure logical function is_real_from(start, number)
+      integer, intent(in) :: start  !! number of a point
+      integer, intent(in) :: number !! of the angle there
+
+      integer :: at, j
+
+      at = number
+      do j = start, first
+        is_real_from = at > 0
+        if (is_real_from) is_real_from = point(j)%angle(at)%is_real .and. &
+          abs(point(j)%angle(at)%turns) < near_one
+        if (.not. is_real_from) return
+        if (j < first) at = partner(at, j)
+      end do
+    end function is_real_from
 
     !> The mode that an angle between two points has at most points around.
     pure function usual_mode(before, number) result(mode)
