@@ -15,6 +15,7 @@ module critical_speeds
   use floquet_exponents, only: find_floquet_modes, floquet_mode_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
   use frozen_modes, only: find_frozen_frequencies
+  use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
   use mode_numbers, only: growing_mode
@@ -103,7 +104,8 @@ module critical_speeds
 
 contains
 
-  !> All critical speeds between the least and the greatest of a request.
+  !> All critical speeds between the least and the greatest of a request; none if the run is
+  !! interrupted.
   !!
   !! Errors: the crank does not turn fully; own modes of a link could not be found.
   subroutine find_critical_speeds(structure, request, frequency, threads, store, critical, gap, &
@@ -126,13 +128,13 @@ contains
     real(wp) :: range(2) !! of the speeds asked for [rad/s]
     integer :: i
 
-    allocate (levels(0))
+    allocate (levels(0), critical(0))
     left_out = 0
     wider = request
     range = [minval(abs(request%speed)), maxval(abs(request%speed))]
     wider%speed = sign(range*[1.0_wp - beyond, 1.0_wp + beyond], request%speed(1))
     call find_crossings(structure, wider, frequency, threads, store, levels, crossing, gap, error)
-    if (allocated(error)) return
+    if (allocated(error) .or. was_interrupted()) return
     gap = pack(gap, gap%speed(2) > range(1) .and. gap%speed(1) < range(2))
     allocate (candidate(size(crossing)), rough(size(crossing)), at_rest(size(crossing)))
     do i = 1, size(crossing)
@@ -142,10 +144,13 @@ contains
       candidate(i)%square = crossing(i)%angle%apart**2
       call find_levels(structure, request, crossing(i)%speed, store, levels, candidate(i)%level, &
         error)
-      if (allocated(error)) return
+      if (allocated(error) .or. was_interrupted()) return
     end do
+    rough = 0.0_wp
+    at_rest = 0.0_wp
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
     do i = 1, size(candidate)
+      if (was_interrupted()) cycle
       call find_rough(request, levels(candidate(i)%level(1))%level, candidate(i), rough(i), &
         at_rest(i))
     end do
@@ -160,15 +165,18 @@ contains
         levels(candidate(i)%level(2))%level, candidate(i))
     end do
     !$omp end parallel do
+    if (was_interrupted()) return
     do i = 1, size(candidate)
       if (candidate(i)%found) cycle
       gap = [gap, gap_t(spread(min(max(candidate(i)%crossing%speed, range(1)), range(2)), 1, 2))]
     end do
     candidate = pack(candidate, candidate%found .and. .not. is_outside(candidate%speed))
     candidate = pack(candidate, .not. [(is_again(i), i=1, size(candidate))])
+    deallocate (critical)
     allocate (critical(size(candidate)))
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
     do i = 1, size(candidate)
+      if (was_interrupted()) cycle
       call find_excitation(request, levels(candidate(i)%level(1))%level, &
         levels(candidate(i)%level(2))%level, candidate(i), critical(i))
     end do
@@ -419,6 +427,7 @@ contains
     integer :: slow, i, m
 
     trial%speed = speed
+    if (was_interrupted()) return
     slow = slow_number(level%grid, request%modes)
     damping = damping_of(request%damping, level%grid)
     call open_fourier(level%grid%samples, plan)

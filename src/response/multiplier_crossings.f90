@@ -8,6 +8,7 @@
 module multiplier_crossings
   use campbell_types, only: gap_t
   use errors, only: error_t
+  use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
   use multiplier_angles, only: angle_t, angles_t, find_angles, match_angles, nearest_to_one, &
@@ -60,7 +61,7 @@ module multiplier_crossings
 contains
 
   !> All crossings of the vibrations wanted between the least and the greatest speed of a request,
-  !! in ascending order of the speed.
+  !! in ascending order of the speed; none if the run is interrupted.
   !!
   !! Errors: the crank does not turn fully; own modes of a link could not be found.
   subroutine find_crossings(structure, request, frequency, threads, store, levels, crossing, gap, &
@@ -81,20 +82,21 @@ contains
     integer :: i, k, first !! point of those asked for
 
     first = 1
+    allocate (crossing(0), gap(0))
     point = first_points([minval(abs(request%speed)), maxval(abs(request%speed))], frequency)
     call find_all(point)
     do i = 1, most_refinements
-      if (allocated(error)) return
+      if (allocated(error) .or. was_interrupted()) return
       if (.not. any(point(1)%angle%is_real .and. abs(point(1)%angle%turns) < near_one)) exit
       between = point(:1)
       between%speed = point(1)%speed*exp(-step)
       call find_all(between)
-      if (allocated(error)) return
+      if (allocated(error) .or. was_interrupted()) return
       call insert([0], between, point)
       first = first + 1
     end do
     do i = 1, most_refinements
-      if (allocated(error)) return
+      if (allocated(error) .or. was_interrupted()) return
       bad = pack([(k, k=1, size(point) - 1)], is_bad(point))
       if (size(bad) == 0) exit
       first = first + count(bad < first)
@@ -102,10 +104,9 @@ contains
       allocate (between(size(bad)))
       between%speed = sqrt(point(bad)%speed*point(bad + 1)%speed)
       call find_all(between)
-      if (allocated(error)) return
+      if (allocated(error) .or. was_interrupted()) return
       call insert(bad, between, point)
     end do
-    gap = [gap_t ::]
     bad = pack([(k, k=1, size(point) - 1)], is_bad(point))
     do i = 1, size(bad)
       gap = [gap, gap_t([point(bad(i))%speed, point(bad(i) + 1)%speed])]
@@ -113,7 +114,7 @@ contains
     call bracket
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
     do i = 1, size(crossing)
-      call solve(crossing(i))
+      if (.not. was_interrupted()) call solve(crossing(i))
     end do
     !$omp end parallel do
     crossing = pack(crossing, crossing%speed > 0.0_wp .and. crossing%mode <= request%modes)
@@ -131,10 +132,11 @@ contains
       allocate (level(size(points)))
       do j = 1, size(points)
         call find_level(points(j)%speed, level(j))
-        if (allocated(error)) return
+        if (allocated(error) .or. was_interrupted()) return
       end do
       !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(j, found)
       do j = 1, size(points)
+        if (was_interrupted()) cycle
         call find_on(level(j), points(j)%speed, found)
         points(j) = found
       end do
@@ -202,7 +204,6 @@ contains
       integer :: j, m
       real(wp) :: mismatch, change
 
-      crossing = [crossing_t ::]
       allocate (partner(request%modes + beside, size(point) - 1))
       partner = 0
       do j = 1, size(point) - 1
