@@ -224,9 +224,10 @@ def run_deck(group, build, deck, out, options=(), environment=None):
 
 
 def goldens(build, environment=None):
-    """The tables of inputs/ are those kept, on this processor or on another one."""
+    """The tables of inputs/ are those kept, on this processor or on another one, and the same bytes on one thread and on three."""
     where = ", oldest processor" if environment else ""
     group = Group(f"goldens, {build}{where}")
+    repeated = Group("the same bytes, 1 and 3 threads")
     group.result("compare_tables.py --self-check", "\n".join(compare_tables.self_check()) or None)
     for deck in sorted(glob(os.path.join("inputs", "*.deck"))):
         case = base_name(deck)
@@ -234,7 +235,7 @@ def goldens(build, environment=None):
         out = fresh("oldest" if environment else "golden", build)
         if not os.path.isdir(kept):
             group.result(deck, f"no {kept}/; say: make golden CASE={case}")
-        elif run_deck(group, build, deck, out, environment=environment):
+        elif run_deck(group, build, deck, out, ["--threads", "3"], environment=environment):
             old, new = ({os.path.basename(table) for table in glob(os.path.join(folder, "*.dat"))}
                         for folder in (kept, os.path.join(out, case)))
             for table in sorted(old | new):
@@ -245,28 +246,29 @@ def goldens(build, environment=None):
                     group.result(name, f"a new table; say: make golden CASE={case}")
                 else:
                     group.result(name, compare_tables.difference(os.path.join(kept, table), os.path.join(out, case, table)))
+            if build == "release" and not environment:
+                same_bytes(repeated, deck, os.path.join(out, case))
     for kept in sorted(glob(os.path.join("tests", "golden", "*", ""))):
         case = os.path.basename(os.path.dirname(kept))
         if not os.path.exists(os.path.join("inputs", case + ".deck")):
             group.result(kept, f"there is no inputs/{case}.deck")
     group.end()
+    if repeated.passed + repeated.failed > 0:
+        repeated.end()
 
 
-def repeated_runs():
-    """The same deck gives the same bytes, on several threads as well."""
-    group = Group("the same bytes, 1 and 3 threads")
-    for deck in sorted(glob(os.path.join("inputs", "*.deck"))):
-        folders = [fresh("twice", which) for which in ("1", "3")]
-        if not all(run_deck(group, "release", deck, folder, ["--threads", os.path.basename(folder)]) for folder in folders):
-            continue
-        folders = [os.path.join(folder, base_name(deck)) for folder in folders]
-        names = [sorted(os.listdir(folder)) for folder in folders]
-        if names[0] != names[1]:
-            group.result(deck, f"files {names[0]}, then {names[1]}")
-            continue
-        different = filecmp.cmpfiles(*folders, names[0], shallow=False)
-        group.result(deck, f"not the same: {' '.join(different[1] + different[2])}" if different[1] + different[2] else None)
-    group.end()
+def same_bytes(group, deck, folder):
+    """The tables of a deck on three threads are the bytes of those on one."""
+    alone = fresh("alone")
+    if not run_deck(group, "release", deck, alone, ["--threads", "1"]):
+        return
+    folders = [os.path.join(alone, base_name(deck)), folder]
+    names = [sorted(os.listdir(folder)) for folder in folders]
+    if names[0] != names[1]:
+        group.result(deck, f"files {names[0]}, then {names[1]}")
+        return
+    different = filecmp.cmpfiles(*folders, names[0], shallow=False)
+    group.result(deck, f"not the same: {' '.join(different[1] + different[2])}" if different[1] + different[2] else None)
 
 
 def threads():
@@ -323,7 +325,7 @@ def main(tests):
     jobs = [(scripts, build) for build in BUILDS]
     jobs += [(unit_tests, build, tests) for build in reversed(BUILDS)]
     jobs += [(assertions, build, tests) for build in of_assertions] + [(layers,), (documents,)]
-    jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS] + [(repeated_runs,)]
+    jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS]
     jobs += [(goldens, "release", OLDEST), (threads,)]
     jobs += [(random_linkages,), (linkages_that_vibrate,), (published_cases,)]
     # Two at once: unit tests take one processor, and decks of one speed, too.
