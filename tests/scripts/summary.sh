@@ -50,8 +50,13 @@ END_OF_PYTHON
 }
 
 inputs() {
-  "$program" --quiet --out "$out" inputs/*.deck 2>/dev/null
-  for deck in inputs/*.deck; do
+  # Those that take seconds take minutes in the debug build, whose goldens they are, too.
+  case $program in
+  */release/*) decks=$(ls inputs/*.deck) ;;
+  *) decks=$(quick_inputs) ;;
+  esac
+  "$program" --quiet --out "$out" $decks 2>/dev/null
+  for deck in $decks; do
     true_summary "$out/$(basename "$deck" .deck)" || return 1
   done
 }
