@@ -17,7 +17,7 @@ module applied_loads
   public :: add_conservative_loads, add_prescribed_loads, add_standing_loads, add_moving_loads, &
     is_moving, moving_force, moving_couple, forced_places, forces_at_places, &
     applied_potential, generalised_force, has_standing_loads, has_moving_loads, spring_pulls, &
-    damper_pulls, spring_scale, load_switches
+    damper_pulls, spring_scale, load_switches, turns_over
 
 contains
 
@@ -407,6 +407,14 @@ contains
     if (load%is_carried) force = turned(load%force, pose%direction(:, load%at(1)%body))
   end function force_of
 
+  !> Whether a load changes its direction or its share with the direction of the motion.
+  elemental function turns_over(load) result(does)
+    type(applied_load_t), intent(in) :: load
+    logical :: does
+
+    does = load%during /= acts_always .or. load%resisting > 0.0_wp
+  end function turns_over
+
   !> What decides on the direction of loads against the motion, and on the share of those that act
   !! in one direction of it only: the arguments of tanh.
   pure function load_switches(linkage, pose, now) result(switches)
@@ -422,7 +430,7 @@ contains
     switches = 0.0_wp
     do i = 1, load_count(linkage)
       associate (load => linkage%loads(i))
-        if (.not. is_moving(load)) cycle
+        if (.not. turns_over(load)) cycle
         value = [load%couple, 0.0_wp]
         select case (load%kind)
         case (applies_force)

@@ -1,6 +1,6 @@
 !> Where loads turn over with the motion of a linkage.
 module motion_switches
-  use applied_loads, only: has_moving_loads, load_switches
+  use applied_loads, only: load_switches, turns_over
   use gears, only: gear_t
   use joint_friction, only: friction_rates, has_friction
   use kinds, only: wp
@@ -20,7 +20,8 @@ contains
     type(gear_t), intent(in) :: gear       !! of the first drive
     logical :: has
 
-    has = has_friction(linkage) .or. has_moving_loads(linkage) .or. gear%efficiency < 1.0_wp
+    has = has_friction(linkage) .or. gear%efficiency < 1.0_wp
+    if (allocated(linkage%loads)) has = has .or. any(turns_over(linkage%loads))
   end function has_switches
 
   !> Velocities of what rubs, of loads, and of the driven body where its gear has losses, over those
