@@ -6,8 +6,8 @@ A case is a machine with the reports of a family.  Its deck and another one that
 units, with other names, in another order, with links named from the other end, cut by a POINT that carries nothing or divided into
 welded halves are both run (without --family all but floquet and transient, which take a minute each); the second tables are taken
 back, and numbers are compared: to the sum of the printed errors, and where a table has none to 1e-10 of the largest of its kind (of a
-motion beside four times what the last digits of the deck change).  Rows, failed ones too, and words are the same.  A case that fails is a line with
-the ways of showing that alone are enough; its decks stay in the scratch folder.  The last line is `N passed, N failed`.
+motion beside four times what the last digits of the deck change).  Rows, failed ones too, and words are the same.  A case that fails
+is a line with the ways of showing that alone are enough; its decks stay in the scratch folder.  The last line is `N passed, N failed`.
 """
 import argparse
 import math

@@ -46,14 +46,21 @@ long_motion() {
 }
 check "no new folder is left by a short run" long_motion
 
+# stops_soon SIGNAL NAME: a run of minutes ends when it is told to, and leaves nothing.
+stops_soon() {
+  started=$(date +%s)
+  interrupted "$1" "$scratch/new" "$scratch/$2.deck" || return 1
+  [ $(($(date +%s) - started)) -lt 30 ] || { echo "it went on"; return 1; }
+  says "$2.deck: interrupted; its earlier results are untouched" || return 1
+  absent "$scratch/new"
+}
+
 # The deck before is done, the one behind it is not begun.
 several_decks() {
   motion_deck >"$scratch/short.deck"
-  run 130 --out "$scratch/several" --time-limit 2s "$scratch/short.deck" "$deck" "$scratch/motion.deck" || return 1
-  says "beam.deck: stopped at its time limit of 2s" && [ -s "$scratch/several/short/kinematics.dat" ] || return 1
-  # On a slow machine nothing is kept of it yet.
-  [ ! -e "$scratch/several/beam" ] || [ "$(ls "$scratch/several/beam")" = resume.part ] || { echo "beam is not as it was"; return 1; }
-  absent "$scratch/several/motion"
+  run 130 --out "$scratch/several" --time-limit 5s "$scratch/short.deck" "$deck" "$scratch/motion.deck" || return 1
+  says "beam.deck: stopped at its time limit of 5s" && [ -s "$scratch/several/short/kinematics.dat" ] || return 1
+  [ "$(ls "$scratch/several/beam")" = resume.part ] && absent "$scratch/several/motion"
 }
 check "of several decks those done stay done" several_decks
 
@@ -71,22 +78,8 @@ SPEED    1 to 3000 step 1
 INERTIA  distributed
 REPORT   balance
 END_OF_DECK
-long_harmonics() {
-  started=$(date +%s)
-  interrupted INT "$scratch/new" "$scratch/balance.deck" || return 1
-  [ $(($(date +%s) - started)) -lt 30 ] || { echo "it went on"; return 1; }
-  says "balance.deck: interrupted; its earlier results are untouched" || return 1
-  absent "$scratch/new"
-}
-check "harmonics stop likewise" long_harmonics
+check "harmonics stop likewise" stops_soon INT balance
 
 # Minutes between two speeds.
 sed 's/^SPEED .*/SPEED 15 60/' inputs/campbell.deck >"$scratch/critical.deck"
-long_critical_speeds() {
-  started=$(date +%s)
-  interrupted TERM "$scratch/new" "$scratch/critical.deck" || return 1
-  [ $(($(date +%s) - started)) -lt 30 ] || { echo "it went on"; return 1; }
-  says "critical.deck: interrupted; its earlier results are untouched" || return 1
-  absent "$scratch/new"
-}
-check "critical speeds stop likewise" long_critical_speeds
+check "critical speeds stop likewise" stops_soon TERM critical

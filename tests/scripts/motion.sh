@@ -86,7 +86,7 @@ pins() {
 check "the places of the pins" pins
 
 # A block that turns back in 40 ns, at 8,000 rpm, where its guide's force passes zero 4 us before: rows elsewhere, the same motion.
-cat >"$scratch/sharp.deck" <<'EOF'
+cat >"$scratch/sharp.deck" <<'END_OF_DECK'
 UNITS    m kg s
 MATERIAL steel E=2e11 density=7800
 SECTION  strip rectangle thickness=0.0024 width=0.006
@@ -106,7 +106,7 @@ FRICTION B bed coefficient=0.16791552439033886
 MOTOR    torque=0.923442080643138
 INERTIA  distributed
 REPORT   motion crank=202.33 speed=14.29 end=0.05 step=0.001
-EOF
+END_OF_DECK
 sharp() {
   sed 's/step=0.001/step=0.0005/' "$scratch/sharp.deck" >"$scratch/closer.deck"
   run 0 --out "$out" "$scratch/sharp.deck" "$scratch/closer.deck" || return 1
