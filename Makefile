@@ -81,16 +81,17 @@ animate: all
 
 check: setup
 	@rm -f build/check.count
-	$(stage) kind=release $(program) build/release/$(unit_tests) build/release/bench/bench $(if $(shell command -v mpifort),$(of_mpi))
-	$(stage) kind=debug build/debug/flexmech build/debug/$(unit_tests) build/debug/bench/bench
+	$(stage) kind=release $(program) build/release/bench/bench $(if $(shell command -v mpifort),$(of_mpi))
+	$(stage) kind=debug build/debug/flexmech build/debug/$(unit_tests)
 	@python3 -B $(support)/check.py $(unit_tests)
 
-# All slow families, with counts that take an hour or so; ONLY="fuzz threads" for some. The table is in check_all.py.
+# What `make check` leaves out, and all slow families; ONLY="fuzz threads" for some. The table is in check_all.py.
 check-all: all debug
 	@SANITIZERS=yes sh $(support)/setup.sh
 	$(stage) kind=sanitize build/sanitize/flexmech
-	$(stage) kind=release build/release/stress/responses build/release/stress/stability
-	@python3 -B $(support)/check_all.py $(ONLY)
+	$(stage) kind=debug build/debug/bench/bench
+	$(stage) kind=release build/release/$(unit_tests) build/release/bench/bench build/release/stress/responses build/release/stress/stability
+	@python3 -B $(support)/check_all.py $(unit_tests) $(ONLY)
 
 # Numbers of the documents that runs of some seconds give. STRESS=yes: those of the last `make stress` instead.
 documents: all
@@ -206,9 +207,9 @@ help:
 	@echo "make figures DECK=FILE  run one deck and draw what its tables allow; FORMAT=svg or pdf, SIZE=1200x800 or 160x100mm,"
 	@echo "                        TITLES=no for bare figures, ERRORS=yes for the estimated errors of the frequencies too"
 	@echo "make animate DECK=FILE  run one deck and animate its motion and its modes"
-	@echo "make check              all tests, in the release and in the debug build"
+	@echo "make check              all tests: scripts in the release build, unit tests in the debug build, tables in both"
 	@echo "make check PFUNIT_DIR=D the same, with the unit tests run by the pFUnit 4 installed in the folder D"
-	@echo "make check-all          all slow families of tests below, reduced to an hour or so; ONLY=\"fuzz threads\" for some"
+	@echo "make check-all          each in the other build, and the slow families of tests below, reduced; ONLY=\"fuzz threads\" for some"
 	@echo "make documents          recompute the numbers of README.md and docs/ that take a few seconds"
 	@echo "make bench              time every solver, tables and figures in outputs/bench/ (six minutes)"
 	@echo "make bench-pictures     copy these figures to docs/pictures/"

@@ -19,7 +19,7 @@ again() {
 
 case $program in
 */release/*)
-  for deck in inputs/*.deck; do
+  for deck in $(quick_inputs); do
     check "the echo of $deck" again "$deck"
   done ;;
 *) skip "echoes of inputs/" "all decks run in the goldens of this build" ;;

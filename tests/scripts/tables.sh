@@ -29,7 +29,7 @@ full_turn() {
 
 case $program in
 */release/*)
-  for deck in inputs/*.deck; do
+  for deck in $(quick_inputs); do
     base=$(basename "$deck" .deck)
     # The program may say that some rows failed; that is not what is looked at here.
     "$program" --quiet --out "$scratch" "$deck" 2>/dev/null

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Runs all tests on what `make check` has built; the last line printed is the count.
+"""Runs the tests on what `make check` has built; the last line printed is the count.
 
-    check.py UNIT_TESTS      the program of unit tests below build/release and build/debug, funit/… or pfunit/…
+    check.py UNIT_TESTS          the program of unit tests below build/release and build/debug, funit/… or pfunit/…
+    check.py --slow UNIT_TESTS   what `make check` leaves to `make check-all`: the same tests in the other build, and slow decks
 
 Everything is written below build/check/. Exit status 1 when a test has failed.
 """
@@ -26,6 +27,8 @@ COUNT = os.path.join("build", "check.count")
 BUILDS = ("release", "debug")
 LONGEST = 1200  # seconds; a test that takes longer hangs
 FUZZED = 500   # decks; `make fuzz` runs more
+# They take seconds each; run once in both builds, and elsewhere by `make check-all` only.
+SLOW_DECKS = ["campbell", "damped_engine", "stability", "strains", "transient"]
 # The C library has other sin, cos and exp for other processors; without all of these it has those of the oldest.
 OLDEST = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX512F,-AVX512DQ,-AVX512BW,-AVX512VL,-AVX2,-FMA,-FMA4"}
 
@@ -246,7 +249,7 @@ def goldens(build, environment=None):
                     group.result(name, f"a new table; say: make golden CASE={case}")
                 else:
                     group.result(name, compare_tables.difference(os.path.join(kept, table), os.path.join(out, case, table)))
-            if build == "release" and not environment:
+            if build == "release" and not environment and case not in SLOW_DECKS:
                 same_bytes(repeated, deck, os.path.join(out, case))
     for kept in sorted(glob(os.path.join("tests", "golden", "*", ""))):
         case = os.path.basename(os.path.dirname(kept))
@@ -282,16 +285,17 @@ def threads():
     group.end()
 
 
-def scripts(build):
-    group = Group(f"scripts, {build}")
-    for script in sorted(glob(os.path.join("tests", "scripts", "*.sh"))):
-        if os.path.basename(script) == "functions.sh":
-            continue  # a part that others read in
+def scripts(build, names, left_out=SLOW_DECKS):
+    """Scripts by their names, those of all decks without some of inputs/."""
+    group = Group(f"scripts, {build}" + ("" if left_out else ", all decks"))
+    for name in names:
+        script = os.path.join("tests", "scripts", name + ".sh")
         if not os.access(script, os.X_OK):
             group.result(script, "is not executable")
             continue
         of_this = Group(script)
-        of_this.lines(execute([os.path.abspath(script), program(build), fresh("scripts", build, base_name(script))]))
+        of_this.lines(execute([os.path.abspath(script), program(build), fresh("scripts", build, name)],
+                              environment={"SLOW_DECKS": "|".join(left_out)}))
         group.passed, group.failed, group.skipped = (
             a + b for a, b in ((group.passed, of_this.passed), (group.failed, of_this.failed), (group.skipped, of_this.skipped)))
     group.end()
@@ -318,30 +322,36 @@ def stage(job):
     return printed.getvalue(), *counts
 
 
-def main(tests):
-    # pFUnit's own comparison of a NaN raises the exception that the debug build traps.
-    of_assertions = BUILDS if tests.startswith("funit") else ("release",)
+def main(tests, slow):
+    names = sorted(base_name(path) for path in glob(os.path.join("tests", "scripts", "*.sh")))
+    names.remove("functions")  # a part that others read in
     # The longest first, or one processor waits for the other in the end.
-    jobs = [(scripts, build) for build in BUILDS]
-    jobs += [(unit_tests, build, tests) for build in reversed(BUILDS)]
-    jobs += [(assertions, build, tests) for build in of_assertions] + [(layers,), (documents,)]
-    jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS]
-    jobs += [(goldens, "release", OLDEST), (threads,)]
-    jobs += [(random_linkages,), (linkages_that_vibrate,), (published_cases,)]
+    if slow:
+        jobs = [(scripts, "debug", names), (unit_tests, "release", tests), (assertions, "release", tests), (goldens, "release", OLDEST)]
+        jobs += [(scripts, "release", ["echo_deck", "tables"], [])]
+    else:
+        jobs = [(scripts, "release", names[i::2]) for i in (0, 1)] + [(unit_tests, "debug", tests)]
+        # pFUnit's own comparison of a NaN raises the exception that the debug build traps.
+        jobs += [(assertions, "debug", tests)] if tests.startswith("funit") else []
+        jobs += [(layers,), (documents,)]
+        jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS]
+        jobs += [(threads,), (random_linkages,), (linkages_that_vibrate,), (published_cases,)]
     # Two at once: unit tests take one processor, and decks of one speed, too.
     with multiprocessing.Pool(min(2, os.cpu_count())) as pool:
         for printed, passed, failed in pool.imap(stage, jobs):
             print(printed, end="", flush=True)
             Group.passed += passed
             Group.failed += failed
-    fuzzed_decks()
+    if not slow:
+        fuzzed_decks()  # a pool of its own
 
     total = f"{Group.passed} passed, {Group.failed} failed"
-    with open(COUNT, "w", encoding="utf-8") as count:
-        count.write(total + "\n")
+    if not slow:
+        with open(COUNT, "w", encoding="utf-8") as count:
+            count.write(total + "\n")
     print(total, flush=True)
     return 1 if Group.failed else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(sys.argv[-1], "--slow" in sys.argv))

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the slow families of tests, `make check-all`: a line each, the count at the end.
 
-    check_all.py [WORD ...]     only those with one of the words in their titles
+    check_all.py UNIT_TESTS [WORD ...]     only those with one of the words in their titles; UNIT_TESTS as check.py has it
 
 What a family prints is in build/check-all/TITLE.log. Its last line of the form `N passed, N failed` counts; a family that has none,
 or ends with another status than 0 without a failure, has failed. Exit status 1 when anything has.
@@ -20,6 +20,7 @@ LONGEST = 7200  # seconds
 
 # Title and command; {program} is the release build, {threads} the number of processors.
 FAMILIES = [
+    ("the rest of make check", "tests/support/check.py --slow {unit_tests}"),
     ("threads", "tests/stress/run_threads.py --runs 200 --program {program}"),
     ("fuzz", "tests/support/fuzz.py 3000 1"),
     ("memory", "tests/support/check_memory.py"),
@@ -50,9 +51,9 @@ FAMILIES = [
 ]
 
 
-def run(title, command):
+def run(title, command, unit_tests):
     """Passed and failed cases of a family."""
-    words = command.format(program=PROGRAM, threads=os.cpu_count()).split()
+    words = command.format(program=PROGRAM, threads=os.cpu_count(), unit_tests=unit_tests).split()
     log = os.path.join(SCRATCH, re.sub(r"\W+", "_", title) + ".log")
     begun = time.time()
     with open(log, "w", encoding="utf-8") as file:
@@ -72,13 +73,13 @@ def run(title, command):
     return passed, failed
 
 
-def main(words):
+def main(unit_tests, *words):
     os.makedirs(SCRATCH, exist_ok=True)
-    counts = [run(title, command) for title, command in FAMILIES if not words or any(word in title for word in words)]
+    counts = [run(title, command, unit_tests) for title, command in FAMILIES if not words or any(word in title for word in words)]
     passed, failed = (sum(one[i] for one in counts) for i in (0, 1))
     print(f"{passed} passed, {failed} failed")
     return 1 if failed else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main(*sys.argv[1:]))
