@@ -23,12 +23,14 @@ stopped() {
 
 check "Ctrl-C leaves the earlier results" eval 'stopped INT "$out" && same "$out" "$scratch/before"'
 check "SIGTERM likewise" eval 'stopped TERM "$out" && same "$out" "$scratch/before"'
+# A busy machine computes nothing in two seconds.
 limited() {
-  run 130 --out "$out" --format csv --time-limit 2s "$deck" || return 1
-  says "beam.deck: stopped at its time limit of 2s; its earlier results are untouched; --resume continues from what it has computed" ||
-    return 1
-  [ -s "$out/beam/resume.part" ] || { echo "no resume.part"; return 1; }
-  rm "$out/beam/resume.part"
+  for limit in 2s 20s 200s; do
+    run 130 --out "$out" --format csv --time-limit $limit "$deck" || return 1
+    says "beam.deck: stopped at its time limit of $limit; its earlier results are untouched" || return 1
+    [ ! -s "$out/beam/resume.part" ] || break
+  done
+  says "; --resume continues from what it has computed" && rm "$out/beam/resume.part"
 }
 check "a time limit likewise" eval 'limited && same "$out" "$scratch/before"'
 check "a new folder holds nothing else" eval 'stopped INT "$scratch/new" && rmdir "$scratch/new/beam" "$scratch/new"'
