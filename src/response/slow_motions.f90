@@ -796,13 +796,17 @@ contains
       if (im(i) < 0.0_wp) cycle
       number = number + 1
       associate (mode => modes(number))
-        mode%exponent = log(cmplx(re(i), im(i), wp))/two_pi
+        ! Strong damping leaves nothing of a vibration after a turn: zero has no logarithm.
+        mode%exponent = log(cmplx(merge(tiny(re), re(i), hypot(re(i), im(i)) < tiny(re)), im(i), &
+          wp))/two_pi
         mode%start = cmplx(vectors(:, i), 0.0_wp, wp)
         mode%is_complex = im(i) > 0.0_wp
         if (mode%is_complex) mode%start = cmplx(vectors(:, i), vectors(:, i + 1), wp)
         associate (z => mode%start(:m))
-          mode%frequency = sqrt(real(dot_product(z, matmul(stiffness, z)))/ &
-            real(dot_product(z, matmul(mass, z))))
+          ! Where nothing at all is left, vectors may be momenta without displacements.
+          mode%frequency = 0.0_wp
+          if (any(abs(z) > 0.0_wp)) mode%frequency = sqrt(real(dot_product(z, matmul(stiffness, &
+            z)))/real(dot_product(z, matmul(mass, z))))
         end associate
       end associate
     end do

@@ -79,6 +79,29 @@ echo_deck() {
   run 0 --quiet --out "$scratch/again" "$out/calm/echo.deck" && same_tables "$out/calm" "$scratch/again/echo"
 }
 
+# Links of a stiff section, slow and strongly damped: nothing is left of a vibration after a turn, and zero has no logarithm.
+gone_after_a_turn() {
+  cat >"$scratch/gone.deck" <<'END_OF_DECK'
+UNITS    m kg s
+VARY     depth 0.0252228 0.025475028
+GROUND   O2 0 0
+GROUND   O4 0.89435 0
+MATERIAL soft E=9551.047MPa density=3708.1491344 nu=0.3
+SECTION  high channel depth=$depth width=71.0012566mm web=0.00252228063 flange=0.00504456 plane=flanges
+LINK     crank    O2 A length=0.185437 material=soft section=high
+LINK     coupler  A  B length=0.75829 material=soft section=high
+LINK     follower B O4 length=0.773454 material=soft section=high
+DRIVE    crank
+CRANK    90 to -90 step -15
+EFFECTS  axial shear rotary
+SPEED    0.63302 rad/s
+DAMPING  * ratio=0.3
+REPORT   response
+END_OF_DECK
+  run 0 --quiet --out "$out" "$scratch/gone.deck"
+}
+
+check "vibrations that are gone after a turn" gone_after_a_turn
 check "the response is the same for any number of threads" threads
 check "variants have the rows of plain decks" variants
 check "a crank that does not turn fails all speeds of its variant" rocker
