@@ -13,7 +13,7 @@ from glob import glob
 PROGRAM = os.path.join("build", "sanitize", "flexmech")
 SCRATCH = os.path.join("build", "memory")
 REPORT_STATUS = 99
-MOST_SECONDS = 600
+MOST_SECONDS = 3600
 
 
 def reports_of(words):
