@@ -786,7 +786,7 @@ contains
     stiffness = reshape(basis%sums(1, :, of_stiffness), [m, m])
     a = motion%monodromy
     call dgeev("N", "V", n, a, n, re, im, none, 1, vectors, n, work, size(work), info)
-    if (info /= 0) then
+    if (info /= 0 .or. .not. all(hypot(re, im) <= huge(re))) then
       call set_error(error, error_of_numerics, "the multipliers of a turn do not converge")
       return
     end if

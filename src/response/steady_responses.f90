@@ -681,17 +681,6 @@ contains
       level%grid), request%terms, near, mode, found%growth, found%error)
     if (allocated(found%error)) return
     applications = mode%applications
-    if (.not. abs(mode%exponent) <= huge(1.0_wp)) then
-      ! Nothing is left of any vibration after a turn, and rounding leaves no exponent.
-      if (found%growth <= log(epsilon(1.0_wp))) then
-        found%distance = 1.0_wp
-        found%nearest = cmplx(found%growth, 0.0_wp, wp)
-      else
-        call set_error(found%error, error_of_numerics, "vibrations fade too fast in a turn: "// &
-          "rounding leaves nothing of their exponents")
-      end if
-      return
-    end if
     found%nearest = cmplx(two_pi*real(mode%exponent), abs(aimag(mode%exponent)), wp)
     found%distance = max(abs(1.0_wp - exp(two_pi*mode%exponent)), epsilon(1.0_wp))
   end subroutine look_at_multipliers
