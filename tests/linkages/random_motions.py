@@ -2,8 +2,8 @@
 
     random_motions.py SEED COUNT [--program PATH] [--scratch FOLDER]
 
-Many pass dead points of their drives.  A motion that ends before a block leaves its link, or whose energy_error is above 1e-9 of the
-energies, is a line with its seed and reason, and its deck stays in the scratch folder.  The last line has the counts and the largest error.
+Many pass dead points of their drives.  A motion that ends early, other than where a block leaves its link, or whose energy_error is
+above 1e-9 of the energies, is a line with its seed and reason, and its deck stays in the scratch folder.  The last line has the counts and the largest error.
 """
 import argparse
 import os
