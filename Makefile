@@ -90,7 +90,8 @@ check-all: all debug
 	@SANITIZERS=yes sh $(support)/setup.sh
 	$(stage) kind=sanitize build/sanitize/flexmech
 	$(stage) kind=debug build/debug/bench/bench
-	$(stage) kind=release build/release/$(unit_tests) build/release/bench/bench build/release/stress/responses build/release/stress/stability
+	$(stage) kind=release build/release/$(unit_tests) build/release/bench/bench build/release/stress/responses build/release/stress/stability \
+	    build/release/stress/read_words
 	@python3 -B $(support)/check_all.py $(unit_tests) $(ONLY)
 
 # Numbers of the documents that runs of some seconds give. STRESS=yes: those of the last `make stress` instead.
@@ -345,6 +346,12 @@ verdict_sources = tests/stress/responses/random_numbers.f90 tests/stress/respons
                   tests/stress/stability/stress_stability.f90
 
 $(build)/stress/stability: $(verdict_sources) $(modules)
+	@echo "link $@"
+	mkdir -p $(@D)
+	$(compile) -ffree-line-length-132 $(warnings_$(kind)) -J$(@D) -I$(build) $^ $(libraries) -o $@
+
+# ------------------------------------------------------------------------------- the program that tests the reader of numbers
+$(build)/stress/read_words: tests/stress/numbers/read_words.f90 $(modules)
 	@echo "link $@"
 	mkdir -p $(@D)
 	$(compile) -ffree-line-length-132 $(warnings_$(kind)) -J$(@D) -I$(build) $^ $(libraries) -o $@

@@ -13,6 +13,11 @@ module numbers
 
   public :: number_length, read_real, read_integer, shortest_text, write_shortest
 
+  !> Powers of ten of 0.d… beyond these are no doubles. Half the distance of two doubles has at most
+  !! 767 digits; the last of more only says whether one of those that follow is not 0.
+  integer(long), parameter :: largest_power = 340
+  integer, parameter :: most_digits = 780, longest_decimal = most_digits + 16
+
 contains
 
   !> How many leading characters of `string` form a number; 0 if it does not begin with one.
@@ -73,9 +78,10 @@ contains
     real(wp), intent(out) :: value         !! 0 if there is an error
     type(error_t), allocatable, intent(out) :: error !! without a place
 
-    character(len=len(string)) :: digits
-    character(len=32) :: form
-    integer :: i, status
+    character(len=longest_decimal) :: decimal
+    character(len=16) :: form
+    integer(long) :: power
+    integer :: length, status
     logical :: halts, done
 
     value = 0.0_wp
@@ -89,25 +95,84 @@ contains
     end if
     call read_short(string, value, done)
     if (done) return
-    do i = 1, len(string)
-      digits(i:i) = string(i:i)
-      if (scan(string(i:i), "dD") == 1) digits(i:i) = "e"
-    end do
-    write (form, "(a,i0,a)") "(f", len(string), ".0)"
-    ! A number out of range is an error of the user: no trap, even where overflow traps.
-    call ieee_get_halting_mode(ieee_overflow, halts)
-    call ieee_set_halting_mode(ieee_overflow, .false.)
-    read (digits, form, iostat=status) value
-    call ieee_set_flag(ieee_overflow, .false.)
-    call ieee_set_halting_mode(ieee_overflow, halts)
-    if (status /= 0 .or. abs(value) > huge(value)) then
-      call set_error(error, error_of_input, "'"//string//"' is too large for a number")
-      value = 0.0_wp
-    else if (abs(value) < tiny(value) .and. has_significant_digit(digits)) then
-      call set_error(error, error_of_input, "'"//string//"' is too small for a number")
-      value = 0.0_wp
+    call write_decimal(string, decimal, length, power)
+    if (length == 0) then
+      value = sign(0.0_wp, merge(-1.0_wp, 1.0_wp, string(1:1) == "-"))
+      return
     end if
+    if (abs(power) <= largest_power) then
+      write (decimal(length + 1:), "(a,i0)") "e", power
+      write (form, "(a,i0,a)") "(f", len_trim(decimal), ".0)"
+      ! A number out of range is an error of the user: no trap, even where overflow traps.
+      call ieee_get_halting_mode(ieee_overflow, halts)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      read (decimal, form, iostat=status) value
+      call ieee_set_flag(ieee_overflow, .false.)
+      call ieee_set_halting_mode(ieee_overflow, halts)
+    end if
+    if (power > largest_power .or. abs(value) > huge(value)) then
+      call set_error(error, error_of_input, "'"//string//"' is too large for a number")
+    else if (power < -largest_power .or. abs(value) < tiny(value)) then
+      call set_error(error, error_of_input, "'"//string//"' is too small for a number")
+    end if
+    if (allocated(error)) value = 0.0_wp
   end subroutine read_real
+
+  !> A number as `-0.123` times a power of ten, with its digits from the first that is not 0 on. Of
+  !! more than any double can depend on, the last one stands for all that follow.
+  pure subroutine write_decimal(string, decimal, length, power)
+    character(len=*), intent(in) :: string          !! a number
+    character(len=longest_decimal), intent(out) :: decimal
+    integer, intent(out) :: length                  !! of the decimal; 0: the number is 0
+    integer(long), intent(out) :: power             !! of ten, at most `countless` from those of its
+                                                    !! digits
+
+    integer(long), parameter :: countless = 10_long**12
+    integer :: at
+    logical :: after_point
+
+    decimal = merge("-", "+", string(1:1) == "-")//"0."
+    length = 3
+    power = 0_long
+    after_point = .false.
+    do at = 1, len(string)
+      select case (string(at:at))
+      case ("0":"9")
+        if (length > 3 .or. string(at:at) /= "0") then
+          if (.not. after_point) power = power + 1
+          if (length < most_digits + 3) then
+            length = length + 1
+            decimal(length:length) = string(at:at)
+          else if (string(at:at) /= "0") then
+            decimal(length:length) = "1"
+          end if
+        else if (after_point) then
+          power = power - 1
+        end if
+      case (".")
+        after_point = .true.
+      case ("e", "E", "d", "D")
+        exit
+      end select
+    end do
+    if (length == 3) length = 0
+    power = power + exponent_of(string(at + 1:), countless)
+  end subroutine write_decimal
+
+  !> The digits after the letter of an exponent as a number; 0 if there are none.
+  pure function exponent_of(digits, countless) result(exponent)
+    character(len=*), intent(in) :: digits      !! with or without a sign
+    integer(long), intent(in) :: countless      !! where counting ends
+    integer(long) :: exponent
+
+    integer :: at
+
+    exponent = 0_long
+    do at = max(1, verify(digits, "+-")), len(digits)
+      exponent = min(10_long*exponent + (iachar(digits(at:at)) - iachar("0")), countless)
+    end do
+    if (index(digits, "-") == 1) exponent = -exponent
+  end function exponent_of
 
   !> Reads a number of few digits, as nearly all of a deck are, in a tenth of the time that a
   !! formatted `read` takes.
@@ -189,18 +254,6 @@ contains
       if (abs(again - value) <= 0.0_wp) return
     end do
   end subroutine write_shortest
-
-  !> Whether the digits before the exponent hold anything but zeros.
-  pure function has_significant_digit(digits) result(has)
-    character(len=*), intent(in) :: digits
-    logical :: has
-
-    integer :: mantissa_end
-
-    mantissa_end = scan(digits, "eE") - 1
-    if (mantissa_end < 0) mantissa_end = len(digits)
-    has = scan(digits(:mantissa_end), "123456789") > 0
-  end function has_significant_digit
 
   !> Reads a text that is a whole number and nothing else. Errors: it is none, or too large.
   pure subroutine read_integer(string, value, error)

@@ -23,6 +23,7 @@ FAMILIES = [
     ("the rest of make check", "tests/support/check.py --slow {unit_tests}"),
     ("threads", "tests/stress/run_threads.py --runs 200 --program {program}"),
     ("fuzz", "tests/support/fuzz.py 3000 1"),
+    ("numbers", "tests/stress/read_numbers.py build/release/stress/read_words"),
     ("memory", "tests/support/check_memory.py"),
     ("linkages, known", "tests/linkages/anchors.py --program {program}"),
     ("linkages, random", "tests/linkages/random_linkages.py 1 300 --program {program}"),
