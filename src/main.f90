@@ -1,7 +1,7 @@
 !> FLEXMECH: rigid dynamics and vibration of flexible mechanisms. Reads the arguments, runs each
 !! deck and sets the exit status.
 program main
-  use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+  use, intrinsic :: iso_fortran_env, only: error_unit
   use card_help, only: card_help_text
   use command_line, only: command_t, help_text, read_command_line, version_text
   use deck_readings, only: deck_t, read_deck
@@ -15,26 +15,27 @@ program main
   use ranks, only: leader, own_rank, ranks_here, start_ranks
   use run_document, only: deck_outcome_t, document_text
   use shell_completion, only: completion_text
+  use standard_output, only: end_of_output, print_text
   use stopwatch, only: lap, start_stopwatch, stopwatch_t
-  use text, only: string_t
+  use text, only: string_t, visible
   implicit none (type, external)
 
   type(command_t) :: command
   type(deck_t), allocatable :: decks(:)
   type(deck_outcome_t), allocatable :: outcomes(:)
   type(run_options_t) :: options
-  type(error_t), allocatable :: error
+  type(error_t), allocatable :: error, unprinted
   type(stopwatch_t) :: watch
   real(wp) :: so_far
-  integer :: i, j, status, processes
+  integer :: i, j, processes
   logical :: refused
 
   call start_stopwatch(watch)
   call start_ranks()
+  call watch_for_interruption()
   processes = ranks_here()
   call read_command_line(command, error)
   if (own_rank() /= leader) then
-    call watch_for_interruption()
     call serve_leader(command%settings)
     stop 0, quiet=.true.
   end if
@@ -44,20 +45,15 @@ program main
     call finish(2, error%text)
   end if
   if (command%help) then
-    write (output_unit, "(a)", advance="no") help_text()
-    call leave(0)
+    call print_and_leave(help_text())
   else if (command%help_cards) then
-    write (output_unit, "(a)", advance="no") card_help_text()
-    call leave(0)
+    call print_and_leave(card_help_text())
   else if (command%version) then
-    write (output_unit, "(a)") version_text()
-    call leave(0)
+    call print_and_leave(version_text()//achar(10))
   else if (command%manual) then
-    write (output_unit, "(a)", advance="no") manual_page_text()
-    call leave(0)
+    call print_and_leave(manual_page_text())
   else if (allocated(command%shell)) then
-    write (output_unit, "(a)", advance="no") completion_text(command%shell)
-    call leave(0)
+    call print_and_leave(completion_text(command%shell))
   end if
 
   options%folder = command%folder
@@ -106,7 +102,6 @@ program main
     call finish(0, "")
   end if
 
-  call watch_for_interruption()
   ! Decks are checked as a whole, however long it takes.
   call lap(watch, so_far)
   call limit_time(command%most_time - so_far)
@@ -121,9 +116,7 @@ program main
     associate (result => outcomes(i)%result)
       if (.not. command%quiet .or. result%failed) call say(result%messages)
       if (command%stats) call say(result%statistics)
-      ! A reader of standard output who has gone is no error: the files are in place.
-      if (.not. (command%quiet .or. command%json)) write (output_unit, "(a)", advance="no", &
-        iostat=status) result%success
+      if (.not. (command%quiet .or. command%json)) call print_text(result%success, unprinted)
       outcomes(i)%exit_status = merge(1, 0, result%failed)
     end associate
   end do
@@ -136,20 +129,33 @@ contains
     integer, intent(in) :: status             !! of the program
     character(len=*), intent(in) :: complaint !! error of the command line; empty: none
 
-    if (command%json) then
-      write (output_unit, "(a)", advance="no") document_text(status, complaint, command%decks, &
-        decks, outcomes)
-    end if
+    if (command%json) call print_text(document_text(status, complaint, command%decks, decks, &
+      outcomes), unprinted)
     call leave(status)
   end subroutine finish
 
+  !> Prints a text that was asked for, and ends the program.
+  subroutine print_and_leave(text)
+    character(len=*), intent(in) :: text
+
+    call print_text(text, unprinted)
+    call leave(0)
+  end subroutine print_and_leave
+
   !> Ends the program on all ranks.
-  subroutine leave(status)
-    integer, intent(in) :: status !! of the program
+  subroutine leave(status_so_far)
+    integer, intent(in) :: status_so_far !! of the program
 
     !> Time for ranks that do something nobody needs any more [s].
     real(wp), parameter :: after_interruption = 2.0_wp
+    integer :: status
 
+    call end_of_output(unprinted)
+    status = status_so_far
+    if (allocated(unprinted)) then
+      call say("flexmech: "//rendered(unprinted)//achar(10))
+      status = 2
+    end if
     call dismiss_ranks(status, merge(after_interruption, huge(1.0_wp), was_interrupted()))
     stop status, quiet=.true.
   end subroutine leave
@@ -168,7 +174,9 @@ contains
   subroutine say(text)
     character(len=*), intent(in) :: text
 
-    write (error_unit, "(a)", advance="no") text
+    integer :: status
+
+    write (error_unit, "(a)", advance="no", iostat=status) visible(text)
   end subroutine say
 
 end program main

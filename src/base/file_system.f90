@@ -1,107 +1,20 @@
-!> The few operating system calls that Fortran lacks.
+!> Files and folders: what Fortran has no statements for.
 module file_system
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_long, &
-    c_null_char, c_null_ptr, c_ptr, c_size_t
+    c_null_char, c_null_ptr, c_ptr
   use kinds, only: long
+  use system_calls, only: c_closedir, c_errno, c_fclose, c_fopen, c_fseek, c_glob, c_globfree, &
+    c_isatty, c_mkdir, c_mkdtemp, c_opendir, c_realpath, c_rename, c_rmdir, c_strerror, c_strlen, &
+    c_truncate, c_unlink, glob_t
   use text, only: append_string, string_t
   implicit none (type, external)
   private
 
-  public :: is_directory, file_exists, make_directories, rename_file, remove_file, &
-    remove_empty_directory, shorten_file, find_matching_files
-  public :: base_name, file_name, joined_path, real_path, standard_error_is_terminal
-
-  !> The result of `glob`, as the C libraries of Linux have it: its members of POSIX, and more
-  !! room than their own ones need.
-  type, bind(c) :: glob_t
-    integer(c_size_t) :: count = 0_c_size_t
-    type(c_ptr) :: paths = c_null_ptr
-    integer(c_size_t) :: offset = 0_c_size_t
-    integer(c_long) :: others(32) = 0_c_long
-  end type glob_t
-
-  interface
-    function c_opendir(path) bind(c, name="opendir") result(directory)
-      import :: c_char, c_ptr
-      character(kind=c_char), intent(in) :: path(*)
-      type(c_ptr) :: directory
-    end function c_opendir
-
-    function c_closedir(directory) bind(c, name="closedir") result(status)
-      import :: c_int, c_ptr
-      type(c_ptr), value :: directory
-      integer(c_int) :: status
-    end function c_closedir
-
-    !> `mode_t` is an unsigned integer of 16 or 32 bits wherever it exists; passed by value, both
-    !! arrive as `int`.
-    function c_mkdir(path, mode) bind(c, name="mkdir") result(status)
-      import :: c_char, c_int
-      character(kind=c_char), intent(in) :: path(*)
-      integer(c_int), value :: mode
-      integer(c_int) :: status
-    end function c_mkdir
-
-    function c_rename(from, to) bind(c, name="rename") result(status)
-      import :: c_char, c_int
-      character(kind=c_char), intent(in) :: from(*), to(*)
-      integer(c_int) :: status
-    end function c_rename
-
-    function c_unlink(path) bind(c, name="unlink") result(status)
-      import :: c_char, c_int
-      character(kind=c_char), intent(in) :: path(*)
-      integer(c_int) :: status
-    end function c_unlink
-
-    function c_rmdir(path) bind(c, name="rmdir") result(status)
-      import :: c_char, c_int
-      character(kind=c_char), intent(in) :: path(*)
-      integer(c_int) :: status
-    end function c_rmdir
-
-    !> `off_t` is a long integer on all machines of 64 bits.
-    function c_truncate(path, length) bind(c, name="truncate") result(status)
-      import :: c_char, c_int, c_long
-      character(kind=c_char), intent(in) :: path(*)
-      integer(c_long), value :: length
-      integer(c_int) :: status
-    end function c_truncate
-
-    function c_glob(pattern, flags, on_error, found) bind(c, name="glob") result(status)
-      import :: c_char, c_int, c_ptr, glob_t
-      character(kind=c_char), intent(in) :: pattern(*)
-      integer(c_int), value :: flags
-      type(c_ptr), value :: on_error
-      type(glob_t), intent(inout) :: found
-      integer(c_int) :: status
-    end function c_glob
-
-    subroutine c_globfree(found) bind(c, name="globfree")
-      import :: glob_t
-      type(glob_t), intent(inout) :: found
-    end subroutine c_globfree
-
-    function c_strlen(string) bind(c, name="strlen") result(length)
-      import :: c_ptr, c_size_t
-      type(c_ptr), value :: string
-      integer(c_size_t) :: length
-    end function c_strlen
-
-    !> `resolved` needs at least PATH_MAX bytes, which is 4096 at most.
-    function c_realpath(path, resolved) bind(c, name="realpath") result(found)
-      import :: c_char, c_ptr
-      character(kind=c_char), intent(in) :: path(*)
-      character(kind=c_char), intent(inout) :: resolved(*)
-      type(c_ptr) :: found
-    end function c_realpath
-
-    function c_isatty(descriptor) bind(c, name="isatty") result(status)
-      import :: c_int
-      integer(c_int), value :: descriptor
-      integer(c_int) :: status
-    end function c_isatty
-  end interface
+  public :: is_directory, is_plain_file, file_exists, make_directories, make_own_directory, &
+    rename_file, remove_file, remove_empty_directory, remove_directory, shorten_file, &
+    find_matching_files, read_text
+  public :: base_name, file_name, folder_name, joined_path, real_path, standard_error_is_terminal, &
+    system_reason
 
 contains
 
@@ -125,7 +38,44 @@ contains
     inquire (file=path, exist=exists)
   end function file_exists
 
-  !> Makes a folder and all missing folders above it.
+  !> Whether there is a file that can be read from any place: no folder, pipe or terminal.
+  function is_plain_file(path) result(is)
+    character(len=*), intent(in) :: path !! absolute or from the working folder
+    logical :: is
+
+    integer(c_int), parameter :: not_allowed = 13_c_int, read_only = 30_c_int ! EACCES, EROFS
+    integer(c_int), parameter :: from_end = 2_c_int
+    type(c_ptr) :: stream
+
+    ! A pipe that nobody writes to blocks who opens it for reading, but not for both.
+    stream = c_fopen(path//c_null_char, "r+"//c_null_char)
+    if (c_associated(stream)) then
+      is = c_fseek(stream, 0_c_long, from_end) == 0
+      is = c_fclose(stream) == 0 .and. is
+    else
+      is = (c_errno() == not_allowed .or. c_errno() == read_only) .and. file_exists(path)
+    end if
+  end function is_plain_file
+
+  !> Why the last call of the system has failed: `Permission denied`.
+  function system_reason() result(reason)
+    character(len=:), allocatable :: reason
+
+    reason = string_of(c_strerror(c_errno()))
+  end function system_reason
+
+  !> A text of C.
+  function string_of(string) result(text)
+    type(c_ptr), intent(in) :: string
+    character(len=:), allocatable :: text
+
+    character(kind=c_char), pointer :: characters(:)
+
+    call c_f_pointer(string, characters, [c_strlen(string)])
+    text = text_of(characters)
+  end function string_of
+
+  !> Makes a folder and all missing folders above it. If it is not made, `system_reason` says why.
   subroutine make_directories(path, made, is_new)
     character(len=*), intent(in) :: path                  !! of the innermost folder
     logical, intent(out) :: made                          !! whether the folder exists in the end
@@ -137,20 +87,46 @@ contains
 
     allocate (is_new(len(path)))
     count = 0
+    made = len(path) > 0
     do at = 1, len(path)
       if (at < len(path)) then
         if (path(at + 1:at + 1) /= "/") cycle
       end if
       if (is_directory(path(:at))) cycle
-      if (c_mkdir(path(:at)//c_null_char, everybody) /= 0) exit
+      made = c_mkdir(path(:at)//c_null_char, everybody) == 0
+      if (.not. made) then
+        ! Another process may have been faster.
+        if (is_directory(path(:at))) cycle
+        made = c_mkdir(path(:at)//c_null_char, everybody) == 0
+        if (.not. made) exit
+      end if
       count = count + 1
       is_new(count)%text = path(:at)
     end do
     is_new = is_new(:count)
-    made = is_directory(path)
   end subroutine make_directories
 
-  !> Renames a file; a file of the new name is replaced.
+  !> Makes a folder that nobody else has, whose name begins as given: `.new-` gives `.new-x7Kq2z`.
+  !! If none is made, `system_reason` says why.
+  subroutine make_own_directory(beginning, path, made)
+    character(len=*), intent(in) :: beginning              !! of its path
+    character(len=:), allocatable, intent(out) :: path     !! of the folder
+    logical, intent(out) :: made
+
+    character(kind=c_char) :: characters(len(beginning) + 7)
+    integer :: i
+
+    path = beginning//"XXXXXX"
+    do i = 1, len(path)
+      characters(i) = path(i:i)
+    end do
+    characters(len(path) + 1) = c_null_char
+    made = c_associated(c_mkdtemp(characters))
+    path = text_of(characters(:len(path)))
+  end subroutine make_own_directory
+
+  !> Renames a file or a folder; a file of the new name is replaced. If it is not done,
+  !! `system_reason` says why.
   subroutine rename_file(from, to, done)
     character(len=*), intent(in) :: from !! current path
     character(len=*), intent(in) :: to   !! new path
@@ -177,6 +153,20 @@ contains
     status = c_rmdir(path//c_null_char)
   end subroutine remove_empty_directory
 
+  !> Removes a folder with the files in it, unless it holds other folders. Failures are ignored.
+  subroutine remove_directory(path)
+    character(len=*), intent(in) :: path !! of the folder
+
+    type(string_t), allocatable :: names(:)
+    integer :: i
+
+    call find_matching_files(path, "", names)
+    do i = 1, size(names)
+      call remove_file(joined_path(path, names(i)%text))
+    end do
+    call remove_empty_directory(path)
+  end subroutine remove_directory
+
   !> Cuts off the end of a file. Failures are ignored.
   subroutine shorten_file(path, bytes)
     character(len=*), intent(in) :: path  !! of the file
@@ -196,7 +186,7 @@ contains
     integer(c_int), parameter :: no_flags = 0_c_int
     type(glob_t) :: found
     type(c_ptr), pointer :: paths(:)
-    character(kind=c_char), pointer :: path(:)
+    character(len=:), allocatable :: path
     integer(c_int) :: status
     integer :: i, first
 
@@ -207,12 +197,31 @@ contains
     if (status == 0) then
       call c_f_pointer(found%paths, paths, [found%count])
       do i = 1, size(paths)
-        call c_f_pointer(paths(i), path, [c_strlen(paths(i))])
-        call append_string(names, text_of(path(first:)))
+        path = string_of(paths(i))
+        call append_string(names, path(first:))
       end do
     end if
     call c_globfree(found)
   end subroutine find_matching_files
+
+  !> The bytes of a file; none if it cannot be read.
+  subroutine read_text(path, text)
+    character(len=*), intent(in) :: path !! of a plain file
+    character(len=:), allocatable, intent(out) :: text
+
+    integer :: unit, status, length
+
+    text = ""
+    open (newunit=unit, file=path, status="old", action="read", access="stream", &
+      form="unformatted", iostat=status)
+    if (status /= 0) return
+    inquire (unit=unit, size=length)
+    deallocate (text)
+    allocate (character(len=max(0, length)) :: text)
+    read (unit, iostat=status) text
+    if (status /= 0) text = ""
+    close (unit)
+  end subroutine read_text
 
   !> A text without the meaning that some characters have in patterns of names.
   pure function escaped(words) result(text)
@@ -258,6 +267,18 @@ contains
 
     name = path(index(path, "/", back=.true.) + 1:)
   end function file_name
+
+  !> The folder of a path: `inputs/one.deck` gives `inputs`, `one.deck` gives `.`.
+  pure function folder_name(path) result(name)
+    character(len=*), intent(in) :: path !! of a file
+    character(len=:), allocatable :: name
+
+    integer :: slash
+
+    slash = index(path, "/", back=.true.)
+    name = "."
+    if (slash > 0) name = path(:max(1, slash - 1))
+  end function folder_name
 
   !> `folder/name`, without a second slash if the folder ends with one.
   pure function joined_path(folder, name) result(path)

@@ -1,40 +1,45 @@
-!> Catches Ctrl-C and termination requests, and knows when the time allowed is over, so that a run
-!! can stop between two positions and leave nothing half done.
+!> What becomes of signals, and of a time that is over: a run stops between two positions and leaves
+!! nothing half done.
 !!
 !! The only module with variables of its own: a signal handler has no other place for its result.
 module interruption
-  use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int
+  use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_null_funptr
   use kinds, only: long, wp
+  use system_calls, only: c_signal
   implicit none (type, external)
   private
 
   public :: watch_for_interruption, limit_time, was_interrupted, was_out_of_time, interrupt
 
-  !> SIGINT and SIGTERM of POSIX.
-  integer(c_int), parameter :: interrupt_signal = 2_c_int, terminate_signal = 15_c_int
+  !> Of POSIX and Linux: requests to end, SIGHUP, SIGINT, SIGTERM and SIGXCPU, and those that come
+  !! of writing where nobody reads, SIGPIPE, or beyond a limit, SIGXFSZ.
+  integer(c_int), parameter :: terminate_signal = 15_c_int, &
+    requests(*) = [1_c_int, 2_c_int, terminate_signal, 24_c_int], of_writing(*) = [13_c_int, &
+    25_c_int]
 
   integer(c_int), volatile :: last_signal = 0_c_int
 
   !> Ticks of the clock at which the time allowed is over.
   integer(long) :: last_tick = huge(last_tick)
 
-  interface
-    function c_signal(number, handler) bind(c, name="signal") result(previous)
-      import :: c_funptr, c_int
-      integer(c_int), value :: number
-      type(c_funptr), value :: handler
-      type(c_funptr) :: previous
-    end function c_signal
-  end interface
-
 contains
 
-  !> Installs the handler of both signals.
+  !> Takes requests to end from now on. One that whoever has started the program lets it ignore, as
+  !! `nohup` and shells do, stays ignored; a write that cannot be done is reported by what writes.
   subroutine watch_for_interruption()
-    type(c_funptr) :: previous
+    integer(c_intptr_t), parameter :: ignored = 1_c_intptr_t ! SIG_IGN of the common C libraries
+    type(c_funptr) :: ignoring, previous
+    integer :: i
 
-    previous = c_signal(interrupt_signal, c_funloc(note_signal))
-    previous = c_signal(terminate_signal, c_funloc(note_signal))
+    ignoring = transfer(ignored, c_null_funptr)
+    do i = 1, size(of_writing)
+      previous = c_signal(of_writing(i), ignoring)
+    end do
+    do i = 1, size(requests)
+      previous = c_signal(requests(i), ignoring)
+      if (transfer(previous, ignored) /= ignored) previous = c_signal(requests(i), &
+        c_funloc(note_signal))
+    end do
   end subroutine watch_for_interruption
 
   !> Allows the program some time from now on.
@@ -51,7 +56,7 @@ contains
     last_tick = now + nint(seconds*real(rate, wp), long)
   end subroutine limit_time
 
-  !> Whether one of the signals has arrived since then, or the time allowed is over.
+  !> Whether a request to end has arrived since then, or the time allowed is over.
   function was_interrupted() result(was)
     logical :: was
 

@@ -2,23 +2,11 @@
 module pauses
   use, intrinsic :: iso_c_binding, only: c_int
   use kinds, only: wp
+  use system_calls, only: c_sched_yield, c_usleep
   implicit none (type, external)
   private
 
   public :: pause_for, let_others_run
-
-  interface
-    function c_usleep(microseconds) bind(c, name="usleep") result(status)
-      import :: c_int
-      integer(c_int), value :: microseconds
-      integer(c_int) :: status
-    end function c_usleep
-
-    function c_sched_yield() bind(c, name="sched_yield") result(status)
-      import :: c_int
-      integer(c_int) :: status
-    end function c_sched_yield
-  end interface
 
 contains
 

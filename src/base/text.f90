@@ -3,12 +3,17 @@
 module text
   use kinds, only: long, wp
   use plain_numbers, only: digit_count, longest_real, real_length, usual_digits, write_real
+  use text_buffer, only: append_text, buffer_text, text_buffer_t
   implicit none (type, external)
   private
 
   public :: string_t, to_string, word_list, trimmed_list, joined, plural, lower_case, upper_case, &
     same_word
-  public :: append_string, has_word, character_count, is_continuation_byte, in_single_quotes
+  public :: append_string, has_word, character_count, character_length, is_continuation_byte, &
+    in_single_quotes, visible, replacement
+
+  !> In place of bytes that are no text: U+FFFD.
+  character(len=*), parameter :: replacement = char(239)//char(191)//char(189)
 
   !> A line, a word or a name: an element of arrays of texts of different lengths.
   type :: string_t
@@ -147,6 +152,73 @@ contains
       if (.not. is_continuation_byte(string(i:i))) count = count + 1
     end do
   end function character_count
+
+  !> Number of bytes of the UTF-8 character at the start of a text (RFC 3629, section 4); 0 if there
+  !! is no valid one.
+  pure function character_length(text) result(length)
+    character(len=*), intent(in) :: text !! not empty
+    integer :: length
+
+    integer :: second, least, most
+
+    ! The first byte determines the length and the range of the second byte, which excludes overlong
+    ! forms, surrogates and everything beyond U+10FFFF.
+    least = 128
+    most = 191
+    select case (ichar(text(1:1)))
+    case (:127)
+      length = 1
+    case (194:223)
+      length = 2
+    case (224:239)
+      length = 3
+      if (ichar(text(1:1)) == 224) least = 160
+      if (ichar(text(1:1)) == 237) most = 159
+    case (240:244)
+      length = 4
+      if (ichar(text(1:1)) == 240) least = 144
+      if (ichar(text(1:1)) == 244) most = 143
+    case default
+      length = 0
+    end select
+    if (length < 2) return
+    if (len(text) < length) then
+      length = 0
+      return
+    end if
+    second = ichar(text(2:2))
+    if (second < least .or. second > most) length = 0
+    if (length > 2) then
+      if (.not. all(is_continuation_byte([text(3:3), text(length:length)]))) length = 0
+    end if
+  end function character_length
+
+  !> A text for a terminal: what is no UTF-8 and every control character but line feeds and tabs is
+  !! the replacement character.
+  pure function visible(text) result(shown)
+    character(len=*), intent(in) :: text
+    character(len=:), allocatable :: shown
+
+    type(text_buffer_t) :: buffer
+    integer :: i, length
+    logical :: is_control
+
+    i = 1
+    do while (i <= len(text))
+      length = character_length(text(i:))
+      is_control = iachar(text(i:i)) == 127 .or. iachar(text(i:i)) < 32 .and. text(i:i) /= &
+        achar(10) .and. text(i:i) /= achar(9)
+      ! U+0080 to U+009F.
+      if (length == 2 .and. text(i:i) == char(194)) is_control = iachar(text(i + 1:i + 1)) < 160
+      if (length == 0 .or. is_control) then
+        call append_text(buffer, replacement)
+      else
+        call append_text(buffer, text(i:i + length - 1))
+      end if
+      i = i + max(1, length)
+    end do
+    shown = buffer_text(buffer)
+  end function visible
 
   !> Whether a byte continues a UTF-8 character that began with an earlier byte.
   elemental function is_continuation_byte(byte) result(continues)

@@ -4,7 +4,7 @@ module json_text
   use errors, only: error_t
   use kinds, only: long, wp
   use numbers, only: read_real
-  use text, only: is_continuation_byte, to_string
+  use text, only: character_length, replacement, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   implicit none (type, external)
   private
@@ -28,7 +28,6 @@ module json_text
   end interface json_value
 
   character(len=*), parameter :: json_null = "null", line_feed = achar(10)
-  character(len=*), parameter :: replacement = char(239)//char(191)//char(189) !! U+FFFD
 
 contains
 
@@ -132,45 +131,5 @@ contains
     call append_text(buffer, '"')
     value = buffer_text(buffer)
   end function json_string
-
-  !> Number of bytes of the UTF-8 character at the start of a text (RFC 3629, section 4); 0 if there
-  !! is no valid one.
-  pure function character_length(text) result(length)
-    character(len=*), intent(in) :: text !! not empty
-    integer :: length
-
-    integer :: second, least, most
-
-    ! The first byte determines the length and the range of the second byte, which excludes overlong
-    ! forms, surrogates and everything beyond U+10FFFF.
-    least = 128
-    most = 191
-    select case (ichar(text(1:1)))
-    case (:127)
-      length = 1
-    case (194:223)
-      length = 2
-    case (224:239)
-      length = 3
-      if (ichar(text(1:1)) == 224) least = 160
-      if (ichar(text(1:1)) == 237) most = 159
-    case (240:244)
-      length = 4
-      if (ichar(text(1:1)) == 240) least = 144
-      if (ichar(text(1:1)) == 244) most = 143
-    case default
-      length = 0
-    end select
-    if (length < 2) return
-    if (len(text) < length) then
-      length = 0
-      return
-    end if
-    second = ichar(text(2:2))
-    if (second < least .or. second > most) length = 0
-    if (length > 2) then
-      if (.not. all(is_continuation_byte([text(3:3), text(length:length)]))) length = 0
-    end if
-  end function character_length
 
 end module json_text

@@ -1,48 +1,40 @@
-!> Output files that appear only when they are complete.
+!> Output files of a run, in a folder of its own until all are complete.
 !!
-!! A file is written under a temporary name. It is renamed only after its size on the disk has been
-!! compared with the number of bytes written: nothing else reveals a full disk. Until then the file
-!! of an earlier run remains untouched.
+!! What cannot be written shows when it is written or when the file is closed: a full disk, a limit.
 module output_files
+  use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_null_char, c_null_ptr, c_ptr, &
+    c_size_t
   use errors, only: error_of_files, error_t, set_error
-  use file_system, only: joined_path, remove_file, rename_file
-  use kinds, only: long
+  use file_system, only: joined_path, system_reason
+  use system_calls, only: c_fclose, c_fopen, c_fwrite
   use text_buffer, only: append_text, text_buffer_t
   implicit none (type, external)
   private
 
-  public :: output_file_t, open_output, append_output, finish_output, publish_output, &
-    remove_output, discard_output
+  public :: output_file_t, open_output, append_output, finish_output, close_output
 
   type :: output_file_t
-    character(len=:), allocatable :: path    !! final, without `.part`
-    integer, private :: unit = -1
-    logical, private :: is_open = .false.
-    integer(long), private :: bytes = 0_long !! written so far
-    logical, private :: sound = .true.       !! all writes have succeeded
-    type(text_buffer_t), private :: buffer   !! text not yet written
+    character(len=:), allocatable, private :: path
+    type(c_ptr), private :: stream = c_null_ptr
+    character(len=:), allocatable, private :: reason !! why a write has failed
+    type(text_buffer_t), private :: buffer           !! text not yet written
   end type output_file_t
 
-  character(len=*), parameter :: temporary = ".part"
   integer, parameter :: buffer_size = 65536 !! [bytes]
 
 contains
 
-  !> Opens a file under its temporary name. Errors: it cannot be opened.
+  !> Opens a file. Errors: it cannot be opened.
   subroutine open_output(folder, name, file, error)
     character(len=*), intent(in) :: folder           !! existing
-    character(len=*), intent(in) :: name             !! final, within the folder
+    character(len=*), intent(in) :: name             !! within the folder
     type(output_file_t), intent(out) :: file         !! ready for text
     type(error_t), allocatable, intent(out) :: error !! allocated if the file cannot be opened
 
-    integer :: status
-
     file%path = joined_path(folder, name)
-    open (newunit=file%unit, file=file%path//temporary, status="replace", action="write", &
-      access="stream", form="unformatted", iostat=status)
-    file%is_open = status == 0
-    if (status /= 0) call set_error(error, error_of_files, "this file cannot be written", &
-      file%path//temporary)
+    file%stream = c_fopen(file%path//c_null_char, "w"//c_null_char)
+    if (.not. c_associated(file%stream)) call set_error(error, error_of_files, &
+      "this file cannot be written: "//system_reason(), file%path)
   end subroutine open_output
 
   !> Appends text as it is. A failure is reported by `finish_output`.
@@ -57,68 +49,37 @@ contains
   subroutine write_buffer(file)
     type(output_file_t), intent(inout) :: file
 
-    integer :: status
+    integer(c_size_t) :: bytes
 
-    if (file%buffer%length == 0) return
-    write (file%unit, iostat=status) file%buffer%storage(:file%buffer%length)
-    file%sound = file%sound .and. status == 0
-    file%bytes = file%bytes + file%buffer%length
+    bytes = int(file%buffer%length, c_size_t)
     file%buffer%length = 0
+    if (bytes == 0_c_size_t .or. allocated(file%reason)) return
+    if (c_fwrite(file%buffer%storage(:bytes), 1_c_size_t, bytes, file%stream) /= bytes) &
+      file%reason = system_reason()
   end subroutine write_buffer
 
-  !> Writes the rest of the buffer, closes the file and compares its size on the disk. Errors: not
-  !! all bytes are on the disk.
-  subroutine finish_output(file, error)
+  !> Writes the rest of the buffer and closes the file. Errors: not all bytes were taken.
+  subroutine finish_output(file, place, error)
     type(output_file_t), intent(inout) :: file       !! open before, closed after
+    character(len=*), intent(in) :: place            !! final path, for a message
     type(error_t), allocatable, intent(out) :: error !! allocated if the file is incomplete
 
-    integer :: status
-    integer(long) :: size_on_disk
-
     call write_buffer(file)
-    close (file%unit, iostat=status)
-    file%is_open = .false.
-    file%sound = file%sound .and. status == 0
-    inquire (file=file%path//temporary, size=size_on_disk)
-    if (.not. file%sound .or. size_on_disk /= file%bytes) then
-      call set_error(error, error_of_files, &
-        "the file could not be written completely; is the disk full?", file%path)
-    end if
+    call close_output(file)
+    if (allocated(file%reason)) call set_error(error, error_of_files, &
+      "the file could not be written completely: "//file%reason, place)
   end subroutine finish_output
 
-  !> Renames a finished file to its final name and replaces an earlier one. Errors: it cannot be
-  !! renamed.
-  subroutine publish_output(file, error)
-    type(output_file_t), intent(in) :: file          !! finished
-    type(error_t), allocatable, intent(out) :: error !! allocated if the file cannot be renamed
+  !> Closes a file as it is; does nothing if none is open.
+  subroutine close_output(file)
+    type(output_file_t), intent(inout) :: file !! open, or not
 
-    logical :: done
+    integer(c_int) :: status
 
-    call rename_file(file%path//temporary, file%path, done)
-    if (.not. done) call set_error(error, error_of_files, "the file cannot be put in place", &
-      file%path)
-  end subroutine publish_output
-
-  !> Removes a file that is no longer requested, and the temporary file that a killed run may have
-  !! left.
-  subroutine remove_output(folder, name)
-    character(len=*), intent(in) :: folder !! of the run
-    character(len=*), intent(in) :: name   !! final, within the folder
-
-    call remove_file(joined_path(folder, name))
-    call remove_file(joined_path(folder, name)//temporary)
-  end subroutine remove_output
-
-  !> Removes the temporary file; does nothing if no file was opened.
-  subroutine discard_output(file)
-    type(output_file_t), intent(inout) :: file !! open or finished; closed after
-
-    integer :: status
-
-    if (.not. allocated(file%path)) return
-    if (file%is_open) close (file%unit, iostat=status)
-    file%is_open = .false.
-    call remove_file(file%path//temporary)
-  end subroutine discard_output
+    if (.not. c_associated(file%stream)) return
+    status = c_fclose(file%stream)
+    file%stream = c_null_ptr
+    if (status /= 0_c_int .and. .not. allocated(file%reason)) file%reason = system_reason()
+  end subroutine close_output
 
 end module output_files

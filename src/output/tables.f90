@@ -4,17 +4,17 @@ module tables
   use csv_text, only: csv_field, csv_line_end, csv_quoted, csv_record
   use decimals, only: decimal_of, decimal_t, decimal_value
   use errors, only: error_t
+  use file_system, only: joined_path
   use kinds, only: long, wp
   use number_text, only: number_width, scientific
   use numbers, only: write_shortest
-  use output_files, only: append_output, discard_output, finish_output, open_output, &
-    output_file_t, publish_output
+  use output_files, only: append_output, close_output, finish_output, open_output, output_file_t
   use table_rows, only: item_failure, item_gap, item_row, next_item, row_item_t, rows_t
   use text, only: string_t, to_string
   implicit none (type, external)
   private
 
-  public :: table_t, open_table, begin_variant, finish_table, publish_table, discard_table
+  public :: table_t, open_table, begin_variant, finish_table, close_table
   public :: column_t, real_column, integer_column, name_column, append_column
   public :: write_header, write_notes, write_rows
   public :: real_cells, decimal_cell, integer_cell, name_cell, has_unit
@@ -48,8 +48,8 @@ module tables
 
 contains
 
-  !> Opens `name.dat` and, on request, `name.csv` beside it or in its place, under temporary names.
-  !! Errors: a file cannot be opened.
+  !> Opens `name.dat` and, on request, `name.csv` beside it or in its place. Errors: a file cannot
+  !! be opened.
   subroutine open_table(folder, name, has_csv, table, error, csv_only)
     character(len=*), intent(in) :: folder           !! existing
     character(len=*), intent(in) :: name             !! of the files, without extension
@@ -79,33 +79,27 @@ contains
     table%first_cells = real_cells(values)
   end subroutine begin_variant
 
-  !> Writes the rest and checks that everything is on the disk. Errors: it is not.
-  subroutine finish_table(table, error)
+  !> Writes the rest and closes the files. Errors: not everything was taken.
+  subroutine finish_table(table, folder, error)
     type(table_t), intent(inout) :: table            !! open before, closed after
+    character(len=*), intent(in) :: folder           !! where its files will be, for a message
     type(error_t), allocatable, intent(out) :: error !! allocated if a file is incomplete
 
     if (table%gap_due) call append_plain(table, line_feed)
     table%gap_due = .false.
-    if (table%has_plain) call finish_output(table%plain, error)
-    if (table%has_csv .and. .not. allocated(error)) call finish_output(table%csv, error)
+    if (table%has_plain) call finish_output(table%plain, joined_path(folder, table%name//".dat"), &
+      error)
+    if (table%has_csv .and. .not. allocated(error)) call finish_output(table%csv, &
+      joined_path(folder, table%name//".csv"), error)
   end subroutine finish_table
 
-  !> Gives the files of a finished table their final names. Errors: a file cannot be renamed.
-  subroutine publish_table(table, error)
-    type(table_t), intent(in) :: table               !! finished
-    type(error_t), allocatable, intent(out) :: error !! allocated if a file cannot be renamed
-
-    if (table%has_plain) call publish_output(table%plain, error)
-    if (table%has_csv .and. .not. allocated(error)) call publish_output(table%csv, error)
-  end subroutine publish_table
-
-  !> Removes the temporary files.
-  subroutine discard_table(table)
+  !> Closes the files as they are.
+  subroutine close_table(table)
     type(table_t), intent(inout) :: table !! open or finished
 
-    call discard_output(table%plain)
-    call discard_output(table%csv)
-  end subroutine discard_table
+    call close_output(table%plain)
+    call close_output(table%csv)
+  end subroutine close_table
 
   !> A column of real numbers.
   pure function real_column(name, unit) result(column)

@@ -1,36 +1,36 @@
 !> The output files of a run: opened together, put in place together.
 module deck_outputs
   use byte_streams, only: get_reals, get_string, put_reals, put_string
-  use errors, only: error_of_files, error_t, set_error
-  use file_system, only: is_directory, joined_path, make_directories, remove_empty_directory
+  use errors, only: error_t
+  use file_system, only: joined_path
   use kinds, only: long, wp
   use models, only: model_t, report_number
-  use output_files, only: append_output, discard_output, finish_output, open_output, &
-    output_file_t, publish_output, remove_output
+  use output_files, only: append_output, close_output, finish_output, open_output, output_file_t
+  use output_folders, only: begin_files, discard_folder, echo_name, leave_folder, log_name, &
+    open_folder, output_folder_t, put_in_place, refuse_names, summary_name
   use report_kinds, only: table_kind_t
   use report_rows, only: find_rows
   use report_table, only: plan_table, reports, table_in_units, table_notes, table_plan_t
   use table_columns, only: header_columns
   use table_rows, only: add_failed_row, rows_t
-  use tables, only: begin_variant, column_t, discard_table, finish_table, open_table, &
-    publish_table, table_t, write_header, write_notes, write_rows
-  use text, only: string_t
+  use tables, only: begin_variant, close_table, column_t, finish_table, open_table, table_t, &
+    write_header, write_notes, write_rows
+  use task_journal, only: begun, journal_name
+  use text, only: append_string, string_t, word_list
   use text_buffer, only: text_buffer_t
   use variant_results, only: variant_results_t
   use variant_rows, only: variant_rows_t
   implicit none (type, external)
   private
 
-  public :: outputs_t, open_outputs, open_folder, refuse_folder, tables_of, write_variant, &
-    write_found_rows, write_texts, publish_outputs, discard_outputs, forget_waiting
+  public :: outputs_t, open_outputs, open_part, tables_of, write_variant, write_found_rows, &
+    write_texts, publish_outputs, close_outputs, discard_outputs, forget_waiting
 
   !> The files of one output folder.
   type :: outputs_t
-    character(len=:), allocatable :: folder
+    type(output_folder_t) :: folder
     logical, private :: csv = .false.                     !! tables as comma-separated values too
     logical, private :: plain = .true.                    !! tables as plain text
-    type(string_t), allocatable, private :: is_new(:)     !! folders that this run made, outermost
-                                                          !! first
     type(table_kind_t), allocatable :: kinds(:)           !! (tables) names and columns, from the
                                                           !! table of reports
     type(table_t), allocatable :: tables(:)               !! in the order of `kinds`
@@ -43,19 +43,17 @@ module deck_outputs
     type(output_file_t), private :: echo, log, summary
   end type outputs_t
 
-  character(len=*), parameter :: echo_name = "echo.deck", log_name = "run.log", &
-    summary_name = "summary.json"
-
   !> Items of a table that are found before any of them is written.
   integer, parameter :: items_at_a_time = 4096
 
 contains
 
-  !> Makes the folder and opens every file in it under a temporary name. Errors: the folder or a
-  !! file cannot be made.
-  subroutine open_outputs(folder, model, parameters, csv, outputs, error, csv_only)
+  !> Opens the folder and every file of a run. Errors: the folder or a file cannot be made, another
+  !! run is writing there, a file would replace one that is not of an earlier run.
+  subroutine open_outputs(folder, model, inputs, parameters, csv, outputs, error, csv_only)
     character(len=*), intent(in) :: folder           !! path of the output folder
     type(model_t), intent(in) :: model               !! of the first variant
+    type(string_t), intent(in) :: inputs(:)          !! paths of the files of the deck
     type(column_t), intent(in) :: parameters(:)      !! columns of the VARY parameters
     logical, intent(in) :: csv                       !! whether to write tables as comma-separated
                                                      !! values too
@@ -63,52 +61,58 @@ contains
     type(error_t), allocatable, intent(out) :: error !! why nothing can be written
     logical, intent(in), optional :: csv_only        !! with `csv`: no plain tables
 
+    type(string_t), allocatable :: names(:)
     integer :: i
 
-    call open_folder(folder, outputs, error)
-    if (allocated(error)) return
+    allocate (outputs%tables(0), names(0))
     outputs%csv = csv
     if (present(csv_only)) outputs%plain = .not. (csv .and. csv_only)
     outputs%parameters = parameters
     outputs%kinds = tables_of(model)
+    do i = 1, size(outputs%kinds)
+      if (outputs%plain) call append_string(names, trim(outputs%kinds(i)%name)//".dat")
+      if (csv) call append_string(names, trim(outputs%kinds(i)%name)//".csv")
+    end do
+    call append_string(names, echo_name)
+    call append_string(names, log_name)
+    call append_string(names, summary_name)
+    call open_folder(folder, "", outputs%folder, error)
+    if (.not. allocated(error)) call begin_files(outputs%folder, error)
+    if (.not. allocated(error)) call refuse_names(outputs%folder, names, word_list(journal_name), &
+      inputs, error)
+    if (allocated(error)) return
     deallocate (outputs%tables)
     allocate (outputs%tables(size(outputs%kinds)))
-    ! Checked now: a folder with the name of a file would stop the renaming when some files are in
-    ! place and others are not.
-    do i = 1, size(outputs%kinds)
-      if (outputs%plain) call refuse_folder(joined_path(folder, &
-        trim(outputs%kinds(i)%name)//".dat"), error)
-      if (csv) call refuse_folder(joined_path(folder, trim(outputs%kinds(i)%name)//".csv"), error)
-    end do
-    call refuse_folder(joined_path(folder, echo_name), error)
-    call refuse_folder(joined_path(folder, log_name), error)
-    call refuse_folder(joined_path(folder, summary_name), error)
-    if (allocated(error)) return
-    do i = 1, size(outputs%kinds)
-      call open_table(folder, trim(outputs%kinds(i)%name), csv, outputs%tables(i), error, &
-        .not. outputs%plain)
-      if (allocated(error)) return
-      outputs%tables(i)%has_blocks = outputs%kinds(i)%has_blocks
-    end do
-    call open_output(folder, echo_name, outputs%echo, error)
-    if (.not. allocated(error)) call open_output(folder, log_name, outputs%log, error)
-    if (.not. allocated(error)) call open_output(folder, summary_name, outputs%summary, error)
+    associate (own => outputs%folder%own)
+      do i = 1, size(outputs%kinds)
+        call open_table(own, trim(outputs%kinds(i)%name), csv, outputs%tables(i), error, &
+          .not. outputs%plain)
+        if (allocated(error)) return
+        outputs%tables(i)%has_blocks = outputs%kinds(i)%has_blocks
+      end do
+      call open_output(own, echo_name, outputs%echo, error)
+      if (.not. allocated(error)) call open_output(own, log_name, outputs%log, error)
+      if (.not. allocated(error)) call open_output(own, summary_name, outputs%summary, error)
+    end associate
   end subroutine open_outputs
 
-  !> Makes the folder, of a run that writes no tables. Errors: it cannot be made.
-  subroutine open_folder(folder, outputs, error)
+  !> Opens the folder of a run that writes one file, a part. Errors: as for `open_outputs`.
+  subroutine open_part(folder, name, inputs, outputs, error)
     character(len=*), intent(in) :: folder           !! path of the output folder
+    character(len=*), intent(in) :: name             !! of the part
+    type(string_t), intent(in) :: inputs(:)          !! paths of the files of the deck
     type(outputs_t), intent(out) :: outputs          !! to be discarded after an error
     type(error_t), allocatable, intent(out) :: error !! why nothing can be written
 
-    logical :: made
+    type(string_t), allocatable :: journals(:), none(:)
 
-    outputs%folder = folder
-    allocate (outputs%tables(0), outputs%kinds(0))
-    call make_directories(folder, made, outputs%is_new)
-    if (.not. made) call set_error(error, error_of_files, &
-      "this folder cannot be created; is there a file of that name?", folder)
-  end subroutine open_folder
+    allocate (outputs%tables(0), outputs%kinds(0), none(0))
+    call append_string(journals, name)
+    call append_string(journals, name//begun)
+    call open_folder(folder, name, outputs%folder, error)
+    if (.not. allocated(error)) call refuse_names(outputs%folder, none, journals, inputs, &
+      error)
+  end subroutine open_part
 
   !> The tables that a model requests: the first table of every report, in the order of all
   !! reports, then the second ones.
@@ -130,15 +134,6 @@ contains
       end do
     end do
   end function tables_of
-
-  !> Errors: there is a folder with the path of a file.
-  subroutine refuse_folder(path, error)
-    character(len=*), intent(in) :: path               !! of the file
-    type(error_t), allocatable, intent(inout) :: error !! as it was if there is none
-
-    if (is_directory(path)) call set_error(error, error_of_files, &
-      "this is a folder, and a file is to be written there", path)
-  end subroutine refuse_folder
 
   !> Writes the rows of a variant to all tables, a number of items at a time.
   subroutine write_variant(outputs, variant, threads)
@@ -283,74 +278,51 @@ contains
     call append_output(outputs%summary, summary)
   end subroutine write_texts
 
-  !> Checks that every file is complete on the disk, and only then renames them all. Tables of an
-  !! earlier run that this run does not have are removed. Errors: a file is not complete, and
-  !! nothing is renamed; or a file cannot be renamed.
+  !> Closes every file, and only then puts them all in place. Tables of an earlier run that this run
+  !! does not have are removed. Errors: a file is not complete, and nothing is put in place; or it
+  !! cannot be.
   subroutine publish_outputs(outputs, error)
     type(outputs_t), intent(inout) :: outputs        !! all written
     type(error_t), allocatable, intent(out) :: error !! the first one
 
     integer :: i
 
-    do i = 1, size(outputs%tables)
-      call finish_table(outputs%tables(i), error)
-      if (allocated(error)) return
-    end do
-    call finish_output(outputs%echo, error)
-    if (allocated(error)) return
-    call finish_output(outputs%log, error)
-    if (allocated(error)) return
-    call finish_output(outputs%summary, error)
-    if (allocated(error)) return
-
-    do i = 1, size(outputs%tables)
-      call publish_table(outputs%tables(i), error)
-      if (allocated(error)) return
-    end do
-    call publish_output(outputs%echo, error)
-    if (allocated(error)) return
-    call publish_output(outputs%log, error)
-    if (allocated(error)) return
-    call publish_output(outputs%summary, error)
-    if (allocated(error)) return
-    call remove_old_tables(outputs)
+    associate (path => outputs%folder%path)
+      do i = 1, size(outputs%tables)
+        call finish_table(outputs%tables(i), path, error)
+        if (allocated(error)) return
+      end do
+      call finish_output(outputs%echo, joined_path(path, echo_name), error)
+      if (.not. allocated(error)) call finish_output(outputs%log, joined_path(path, log_name), &
+        error)
+      if (.not. allocated(error)) call finish_output(outputs%summary, joined_path(path, &
+        summary_name), error)
+    end associate
+    if (.not. allocated(error)) call put_in_place(outputs%folder, error)
   end subroutine publish_outputs
 
-  !> Removes tables of reports, and forms of tables, that are no longer requested.
-  subroutine remove_old_tables(outputs)
-    type(outputs_t), intent(in) :: outputs
+  !> Lets others write to the folder.
+  subroutine close_outputs(outputs)
+    type(outputs_t), intent(inout) :: outputs !! published
 
-    integer :: i, t
+    call leave_folder(outputs%folder)
+  end subroutine close_outputs
 
-    do i = 1, size(reports)
-      do t = 1, size(reports(i)%tables)
-        associate (name => reports(i)%tables(t)%name)
-          if (name == "") cycle
-          if (all(outputs%kinds%name /= name) .or. .not. outputs%plain) &
-            call remove_output(outputs%folder, trim(name)//".dat")
-          if (all(outputs%kinds%name /= name) .or. .not. outputs%csv) &
-            call remove_output(outputs%folder, trim(name)//".csv")
-        end associate
-      end do
-    end do
-  end subroutine remove_old_tables
-
-  !> Removes the temporary files, and the folders that this run made. Files of an earlier run stay.
+  !> Removes the files and the folders that this run made. Files of an earlier run stay.
   subroutine discard_outputs(outputs)
     type(outputs_t), intent(inout) :: outputs !! opened, as far as was possible, or new
 
     integer :: i
 
-    if (.not. allocated(outputs%folder)) return
-    do i = 1, size(outputs%tables)
-      call discard_table(outputs%tables(i))
-    end do
-    call discard_output(outputs%echo)
-    call discard_output(outputs%log)
-    call discard_output(outputs%summary)
-    do i = size(outputs%is_new), 1, -1
-      call remove_empty_directory(outputs%is_new(i)%text)
-    end do
+    if (allocated(outputs%tables)) then
+      do i = 1, size(outputs%tables)
+        call close_table(outputs%tables(i))
+      end do
+    end if
+    call close_output(outputs%echo)
+    call close_output(outputs%log)
+    call close_output(outputs%summary)
+    call discard_folder(outputs%folder)
   end subroutine discard_outputs
 
 end module deck_outputs

@@ -4,8 +4,8 @@ module deck_runs
   use byte_streams, only: get_integers, put_integers, put_string
   use cards, only: card_t
   use deck_bytes, only: get_deck, put_deck
-  use deck_outputs, only: discard_outputs, open_folder, open_outputs, outputs_t, publish_outputs, &
-    refuse_folder, write_found_rows, write_texts, write_variant
+  use deck_outputs, only: close_outputs, discard_outputs, open_outputs, open_part, outputs_t, &
+    publish_outputs, write_found_rows, write_texts, write_variant
   use deck_readings, only: deck_t
   use deck_summary, only: summary_text
   use diagnostics, only: diagnostics_t, warnings_of, diagnostic_t
@@ -33,7 +33,7 @@ module deck_runs
   use tables, only: column_t, real_column
   use task_journal, only: begun, close_journal, journal_t, keeps_tasks, open_journal, &
     publish_journal, remove_journal
-  use text, only: plural, string_t, to_string
+  use text, only: append_string, plural, string_t, to_string
   use text_buffer, only: text_buffer_t
   use variant_log, only: log_of_variant
   use variant_checks, only: is_refused
@@ -156,6 +156,7 @@ contains
       call discard_outputs(session%outputs)
       return
     end if
+    call close_outputs(session%outputs)
     call lap(watch, times%files)
     result%findings = session%findings
     result%failed = result%findings%failures > 0
@@ -164,7 +165,7 @@ contains
     result%statistics = statistics_text(deck%base, session%totals, times)
     ! Figures are drawn from plain tables.
     if (options%part%count > 0) then
-      result%success = success_of_part(deck, options%part, session%outputs%folder)
+      result%success = success_of_part(deck, options%part, session%outputs%folder%path)
     else if (options%csv_only .or. .not. allocated(options%figures)) then
       result%success = success_of(deck, session, "")
     else
@@ -182,15 +183,18 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     character(len=:), allocatable :: folder, title, name
-    integer :: count
+    type(string_t), allocatable :: inputs(:)
+    integer :: count, i
 
     blocks = 0
+    do i = 1, size(deck%source%files)
+      call append_string(inputs, deck%source%files(i)%path)
+    end do
     folder = joined_path(options%folder, deck%base)
     title = journal_title(deck)
     if (options%part%count > 0) then
-      call open_folder(folder, session%outputs, error)
       name = part_name(deck%base, options%part)
-      if (.not. allocated(error)) call refuse_folder(joined_path(folder, name), error)
+      call open_part(folder, name, inputs, session%outputs, error)
       if (allocated(error)) return
       call open_journal(folder, title, options%resume, session%journal, blocks, name)
       if (.not. keeps_tasks(session%journal)) call set_error(error, error_of_files, &
@@ -205,8 +209,8 @@ contains
       end associate
       if (allocated(error)) return
     end if
-    call open_outputs(folder, deck%model, parameter_columns(deck), options%csv, session%outputs, &
-      error, options%csv_only)
+    call open_outputs(folder, deck%model, inputs, parameter_columns(deck), options%csv, &
+      session%outputs, error, options%csv_only)
     if (.not. (allocated(error) .or. options%join)) call open_journal(folder, title, &
       options%resume, session%journal, blocks)
   end subroutine open_files
@@ -252,7 +256,7 @@ contains
       if (of_deck(1)%warning%grade == grade_meaningless) warning = of_deck(1)%message
     end if
     associate (tables => session%outputs%tables)
-      text = text_of_success(deck%base, session%outputs%folder, size(tables), &
+      text = text_of_success(deck%base, session%outputs%folder%path, size(tables), &
         sum(tables%failed_rows), session%totals, deck%model%modes, deck%model%outputs, warning, &
         drawing)
     end associate
@@ -474,7 +478,7 @@ contains
       call publish_journal(session%journal, done)
       if (.not. done) call set_error(error, error_of_files, &
         "the part could not be written completely; is the disk full?", &
-        joined_path(session%outputs%folder, part_name(deck%base, options%part)))
+        joined_path(session%outputs%folder%path, part_name(deck%base, options%part)))
       return
     end if
     call write_texts(session%outputs, echo_text(deck%model), log_text(deck, session), &

@@ -60,6 +60,7 @@ module task_journal
     logical, private :: is_sorted = .false.         !! `list`
     integer, private :: last = 0                    !! block that was found last
     integer, private :: kept = 0                    !! blocks of this run
+    integer(long), private :: first = 0_long        !! place of the first block
     integer(long), private :: next = 0_long         !! place of the next byte
     integer(long), private :: clock = 0_long        !! ticks at the start of the run, or when bytes
                                                     !! were last passed on
@@ -180,6 +181,7 @@ contains
     call read_title_of(journal%unit, title)
     if (is_title(journal, title)) then
       journal%is_open = .true.
+      inquire (unit=journal%unit, pos=journal%first)
       call read_blocks(journal, journal%unit, 0, journal%next)
       blocks = journal%blocks
     else
@@ -436,7 +438,9 @@ contains
     journal%is_open = status == 0
     if (status == 0) write (journal%unit, iostat=status) len(journal%title), journal%title
     journal%broken = status /= 0
-    if (.not. journal%broken) inquire (unit=journal%unit, pos=journal%next)
+    if (.not. journal%is_open) return
+    inquire (unit=journal%unit, pos=journal%first)
+    journal%next = journal%first
   end subroutine begin_journal
 
   !> Closes the journal of an interrupted run.
@@ -445,6 +449,7 @@ contains
     integer, intent(out) :: blocks            !! in it for a run that resumes; 0: nothing to resume
                                               !! from
 
+    integer(long) :: bytes
     integer :: status
 
     blocks = 0
@@ -453,7 +458,9 @@ contains
     close (journal%unit, iostat=status)
     journal%is_open = .false.
     if (status == 0 .and. .not. journal%broken) blocks = journal%blocks + journal%kept
-    if (blocks == 0 .and. .not. journal%broken) call remove_file(journal%path)
+    ! On a full disk there may be a file without a block.
+    inquire (file=journal%path, size=bytes)
+    if (bytes < journal%first) call remove_file(journal%path)
   end subroutine close_journal
 
   !> Puts a journal that stays in place, complete.

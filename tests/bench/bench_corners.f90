@@ -16,7 +16,7 @@ module bench_corners
   use nodal_parts, only: find_eigenvalues
   use positions, only: find_positions, positions_t, state_t
   use table_rows, only: add_row, rows_t
-  use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, publish_table, &
+  use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, &
     real_cells, real_column, table_t, write_header, write_rows
   use task_journal, only: journal_t
   use text, only: string_t, to_string
@@ -339,8 +339,7 @@ contains
       end associate
     end do
     call write_rows(file, rows)
-    call finish_table(file, error)
-    if (.not. allocated(error)) call publish_table(file, error)
+    call finish_table(file, folder, error)
   end subroutine write_corners
 
   !> Zeros where LAPACK found nothing.

@@ -11,7 +11,7 @@ module bench_linkages
   use nodal_parts, only: new_nodal_parts, nodal_parts_t, solve_nodal_parts
   use positions, only: by_crank_angle
   use table_rows, only: add_row, rows_t
-  use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, publish_table, &
+  use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, &
     real_cells, real_column, table_t, write_header, write_rows
   use task_journal, only: journal_t
   use text, only: string_t, to_string
@@ -281,8 +281,7 @@ contains
       end associate
     end do
     call write_rows(file, rows)
-    call finish_table(file, error)
-    if (.not. allocated(error)) call publish_table(file, error)
+    call finish_table(file, folder, error)
   end subroutine write_linkages
 
 end module bench_linkages

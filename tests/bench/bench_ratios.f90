@@ -4,7 +4,7 @@ module bench_ratios
   use errors, only: error_t
   use kinds, only: wp
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: column_t, finish_table, name_cell, name_column, open_table, publish_table, real_cells, real_column, table_t, &
+  use tables, only: column_t, finish_table, name_cell, name_column, open_table, real_cells, real_column, table_t, &
     write_header, write_rows
   use text, only: string_t, to_string
   implicit none (type, external)
@@ -57,8 +57,7 @@ contains
       end do
     end do
     call write_rows(file, rows)
-    call finish_table(file, error)
-    if (.not. allocated(error)) call publish_table(file, error)
+    call finish_table(file, folder, error)
   end subroutine write_ratios
 
   !> Time of the cheapest run that keeps an error; huge if none does [s].

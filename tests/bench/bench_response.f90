@@ -15,7 +15,7 @@ module bench_response
     total_torque
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_motion_t
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, publish_table, &
+  use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, &
     real_cells, real_column, table_t, write_header, write_rows
   use text, only: string_t, to_string, word_list
   use turn_grids, only: turn_grid_t
@@ -422,8 +422,7 @@ contains
       end associate
     end do
     call write_rows(file, rows)
-    call finish_table(file, error)
-    if (.not. allocated(error)) call publish_table(file, error)
+    call finish_table(file, folder, error)
     if (.not. allocated(error)) call write_parts(folder, notes, base, bench, error)
   end subroutine write_responses
 
@@ -472,8 +471,7 @@ contains
       end associate
     end do
     call write_rows(file, rows)
-    call finish_table(file, error)
-    if (.not. allocated(error)) call publish_table(file, error)
+    call finish_table(file, folder, error)
   end subroutine write_parts
 
   !> Times what a run of the program is made of. Errors: those of the program.

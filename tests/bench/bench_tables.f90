@@ -5,7 +5,7 @@ module bench_tables
   use errors, only: error_t
   use kinds, only: wp
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, publish_table, &
+  use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, &
     real_cells, real_column, table_t, write_header, write_rows
   use text, only: string_t, to_string
   implicit none (type, external)
@@ -54,8 +54,7 @@ contains
       end associate
     end do
     call write_rows(file, rows)
-    call finish_table(file, error)
-    if (.not. allocated(error)) call publish_table(file, error)
+    call finish_table(file, folder, error)
   end subroutine write_plan
 
   pure function columns_of(plan) result(columns)
@@ -218,8 +217,7 @@ contains
         real_cells([median_of(times(i, :)), minval(times(i, :))]))
     end do
     call write_rows(file, rows)
-    call finish_table(file, error)
-    if (.not. allocated(error)) call publish_table(file, error)
+    call finish_table(file, folder, error)
   end subroutine write_times
 
 end module bench_tables

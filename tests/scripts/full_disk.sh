@@ -12,7 +12,7 @@ fi
 trap 'umount "$disk"' EXIT
 
 deck=$scratch/beam.deck
-full="the file could not be written completely; is the disk full?"
+full="the file could not be written completely: No space left on device"
 
 earlier_results() {
   beam_deck "CRANK 0" "REPORT frequencies" >"$deck"

@@ -52,15 +52,17 @@ absent() {
   return 0
 }
 
-# interrupted SIGNAL OUT DECK OPTION...: a run that is sent a signal after a second, and is told to have taken it. A shell without
-# job control starts its background jobs deaf to SIGINT, so one with it does.
+# interrupted SIGNAL OUT DECK OPTION...: a run that is sent a signal after a second, and is told to have taken it. Shells start their
+# background jobs deaf to SIGINT, so it is made to hear again.
 interrupted() {
   cat >"$scratch/job.sh" <<'END_OF_JOB'
-set -m
 signal=$1
 told=$2
 shift 2
-"$@" 2>"$told" &
+python3 -c 'import os, signal, sys
+for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM, signal.SIGXCPU):
+    signal.signal(number, signal.SIG_DFL)
+os.execvp(sys.argv[1], sys.argv[1:])' "$@" 2>"$told" &
 sleep 1
 # Where the run is to leave a journal, not before there is one.
 for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
@@ -80,9 +82,9 @@ END_OF_JOB
   [ $found -eq $wanted ] || { echo "status $found, not $wanted"; return 1; }
 }
 
-# same FOLDER FOLDER: the same files with the same bytes.
+# same FOLDER FOLDER [OPTION...]: the same files with the same bytes.
 same() {
-  diff -rq "$1" "$2"
+  diff -rq "$@"
 }
 
 # same_but_names FOLDER FOLDER: likewise, but for the summary, which names its deck.

@@ -22,7 +22,9 @@ stopped() {
 }
 
 check "Ctrl-C leaves the earlier results" eval 'stopped INT "$out" && same "$out" "$scratch/before"'
-check "SIGTERM likewise" eval 'stopped TERM "$out" && same "$out" "$scratch/before"'
+for signal in TERM HUP XCPU; do
+  check "SIG$signal likewise" eval 'stopped $signal "$out" && same "$out" "$scratch/before"'
+done
 # A busy machine computes nothing in two seconds.
 limited() {
   for limit in 2s 20s 200s; do
@@ -57,6 +59,32 @@ stops_soon() {
   absent "$scratch/new"
 }
 
+# A batch of variants is checked as a whole before anything is computed.
+while_reading() {
+  { motion_deck && echo "VARY b 270 to 290 step 0.001"; } | sed 's/length=279.4/length=$b/' >"$scratch/many.deck"
+  for signal in INT TERM HUP; do
+    interrupted $signal "$scratch/new" "$scratch/many.deck" || return 1
+    says "many.deck: interrupted" && absent "$scratch/new" || return 1
+  done
+}
+
+# `nohup` and the shell's `&` let a program ignore a signal; it keeps to that.
+deaf() {
+  python3 -c 'import os, signal, sys
+for number in (signal.SIGINT, signal.SIGHUP):
+    signal.signal(number, signal.SIG_IGN)
+os.execvp(sys.argv[1], sys.argv[1:])' "$program" --quiet --out "$scratch/deaf" "$scratch/some.deck" &
+  for signal in INT HUP; do
+    sleep 0.2
+    kill -s $signal $!
+  done
+  wait $!
+  found=$?
+  [ $found -eq 0 ] && [ -s "$scratch/deaf/some/frequencies.dat" ] || echo "status $found"
+}
+beam_deck "CRANK 0 to 360 step 0.02" "SPEED 0 to 20 step 1" "REPORT frequencies" >"$scratch/some.deck"
+check "an ignored signal stays ignored" deaf
+
 # The deck before is done, the one behind it is not begun.
 several_decks() {
   motion_deck >"$scratch/short.deck"
@@ -80,6 +108,7 @@ SPEED    1 to 3000 step 1
 INERTIA  distributed
 REPORT   balance
 END_OF_DECK
+check "while a deck is read" while_reading
 check "harmonics stop likewise" stops_soon INT balance
 
 # Minutes between two speeds.

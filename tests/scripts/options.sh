@@ -205,6 +205,14 @@ nobody_listens() {
   (cd "$scratch" && "$program" --out "$out/deaf" four.deck >&-) && [ -s "$out/deaf/four/kinematics.dat" ]
 }
 
+# A device that is always full stands for the disk.
+full_output() {
+  for option in --help --help-cards --version --man "--completion bash" "--json $deck" "--check --json $deck" "$deck"; do
+    "$program" --out "$out/full" $option >/dev/full 2>"$scratch/stderr"
+    [ $? -eq 2 ] && says "flexmech: error: standard output cannot be written: No space left on device" || { echo "$option"; return 1; }
+  done
+}
+
 check "--help explains every option" help
 check "--version" version
 check "--check of a good deck writes nothing" check_only
@@ -232,3 +240,4 @@ check "the line after a run" success
 check "the line after a run with frequencies" success_of_frequencies
 check "the command for figures that is installed" success_installed
 check "standard output that is closed" nobody_listens
+check "standard output on a full disk" full_output

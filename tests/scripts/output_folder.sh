@@ -54,6 +54,73 @@ names_of_folders() {
   [ "$(ls -A "$scratch/h")" = inside ] && [ -z "$(ls -A "$scratch/h/inside")" ] || { echo "something was written"; return 1; }
 }
 
+# What a user keeps beside the deck, by the names of tables, where the outputs are to be, too.
+beside_the_deck() {
+  mkdir "$scratch/press"
+  cp "$deck" "$scratch/press/press.deck"
+  for name in strains.dat points.csv summary.csv notes.txt; do
+    echo mine >"$scratch/press/$name"
+  done
+  for time in 1 2; do
+    run 0 --out "$scratch" "$scratch/press/press.deck" || return 1
+    for name in strains.dat points.csv summary.csv notes.txt; do
+      [ "$(cat "$scratch/press/$name")" = mine ] || { echo "$name is another"; return 1; }
+    done
+  done
+  echo mine >"$scratch/press/linkage.dat"
+  { motion_deck && echo "REPORT linkage"; } >"$scratch/press/press.deck"
+  run 2 --out "$scratch" "$scratch/press/press.deck" && says "press/linkage.dat: error: a file is to be written there" &&
+    [ "$(cat "$scratch/press/linkage.dat")" = mine ]
+}
+
+# Neither the deck nor what it includes nor its tables are written over.
+inputs_in_the_way() {
+  for name in echo.deck summary.json kinematics.dat resume.part; do
+    base=$(basename "$name" .deck)
+    mkdir -p "$scratch/i/$base" "$scratch/i/four"
+    case $name in
+      echo.deck) of=$scratch/i/echo/echo.deck && cp "$deck" "$of" ;;
+      kinematics.dat)
+        of=$scratch/i/four/four.deck
+        printf 'units deg N\n0 0\n360 0\n' >"$scratch/i/four/$name"
+        { motion_deck && echo "FORCE B 1 0 table=$name"; } >"$of" ;;
+      *) of=$scratch/i/four/four.deck && echo "MODES 3" >"$scratch/i/four/$name" && { motion_deck && echo "INCLUDE $name"; } >"$of" ;;
+    esac
+    cp -r "$scratch/i" "$scratch/i_before"
+    run 2 --out "$scratch/i" "$of" && says "$name: error: this file belongs to the deck" && same "$scratch/i" "$scratch/i_before" || return 1
+    rm -r "$scratch/i" "$scratch/i_before"
+  done
+}
+
+# Somebody else holds the lock, is killed, or has left its file.
+another_run() {
+  mkdir -p "$scratch/j"
+  run 0 --out "$scratch/j" "$deck" && cp -r "$scratch/j" "$scratch/j_before" || return 1
+  python3 -c 'import fcntl, sys, time
+lock = open(sys.argv[1], "a")
+fcntl.flock(lock, fcntl.LOCK_EX)
+lock.write("process 4711 on elsewhere, 1\n")
+lock.flush()
+time.sleep(1000)' "$scratch/j/four/.lock" &
+  holder=$!
+  while [ ! -s "$scratch/j/four/.lock" ]; do sleep 0.1; done
+  run 2 --out "$scratch/j" "$deck" && says "j/four: error: another run is writing to this folder (process 4711 on elsewhere)" &&
+    same "$scratch/j" "$scratch/j_before" -x .lock
+  result=$?
+  kill -KILL $holder
+  wait $holder 2>/dev/null
+  [ $result -eq 0 ] && run 0 --out "$scratch/j" "$deck" && same "$scratch/j" "$scratch/j_before"
+}
+
+# `make check-all` has more of both.
+pairs_and_kills() {
+  python3 -B tests/stress/shared_folder.py --program "$program" --scratch "$scratch/shared" --pairs 10 --kills 40
+}
+
+check "files of the user's own stay" beside_the_deck
+check "a file of the deck in the place of a table" inputs_in_the_way
+check "another run writes to the folder" another_run
+check "pairs of runs, and runs that are killed" pairs_and_kills
 check "deck names that give no folder name" names_of_folders
 check "a file where the folder should be" file_in_the_way
 check "a file where the folder above should be" file_above_in_the_way

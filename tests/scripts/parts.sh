@@ -362,7 +362,7 @@ check "and the parts are still joined" joins "$scratch/out" plain
 
 in_the_way() {
   mkdir -p "$scratch/way/my/my.part1of2.resume"
-  run 2 --out "$scratch/way" --part 1/2 "$deck" && says "my.part1of2.resume: error: this file cannot be written" || return 1
+  run 2 --out "$scratch/way" --part 1/2 "$deck" && says "my.part1of2.resume: error: this is a folder, and a file is to be written there" || return 1
   mv "$scratch/way/my/my.part1of2.resume" "$scratch/way/my/my.part1of2"
   run 2 --out "$scratch/way" --part 1/2 "$deck" && says "my.part1of2: error: this is a folder, and a file is to be written there" || return 1
   rmdir "$scratch/way/my/my.part1of2" "$scratch/way/my"

@@ -24,6 +24,7 @@ FAMILIES = [
     ("threads", "tests/stress/run_threads.py --runs 200 --program {program}"),
     ("fuzz", "tests/support/fuzz.py 3000 1"),
     ("numbers", "tests/stress/read_numbers.py build/release/stress/read_words"),
+    ("one folder for several runs", "tests/stress/shared_folder.py --pairs 500 --kills 2000 --resumes 200 --program {program}"),
     ("memory", "tests/support/check_memory.py"),
     ("linkages, known", "tests/linkages/anchors.py --program {program}"),
     ("linkages, random", "tests/linkages/random_linkages.py 1 300 --program {program}"),

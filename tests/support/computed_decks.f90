@@ -13,7 +13,7 @@ module computed_decks
   use report_table, only: plan_table, reports, table_in_units, table_notes, table_plan_t
   use table_columns, only: header_columns
   use table_rows, only: rows_t
-  use tables, only: column_t, finish_table, open_table, publish_table, table_t, write_header, write_rows
+  use tables, only: column_t, finish_table, open_table, table_t, write_header, write_rows
   use task_journal, only: journal_t
   use text, only: string_t
   use variant_results, only: variant_results_t
@@ -156,8 +156,7 @@ contains
     call header_columns(plan%layout, columns)
     call write_header(table, found%model%title, notes, columns)
     call write_rows(table, rows)
-    call finish_table(table, error)
-    call publish_table(table, error)
+    call finish_table(table, ".", error)
     if (allocated(error)) return
     inquire (file=scratch//".dat", size=length)
     deallocate (text)
