@@ -4,6 +4,9 @@
 # this file again with kind=release or kind=debug. Only that second call looks at sources, compilers and archives:
 # on a fresh machine there is no gfortran yet when the first one is read.
 
+# What is typed at make is a text: not expanded here, and in commands only as "$$NAME", where the shell does not read it either.
+$(foreach name,$(.VARIABLES),$(if $(findstring command,$(origin $(name))),$(eval override $(name) := $$(value $(name)))$(eval export $(name))))
+
 ifeq ($(origin FC),default)
 FC = gfortran
 endif
@@ -15,6 +18,7 @@ export MPI
 export OMPI_FC  = $(FC)
 export MPICH_FC = $(FC)
 PREFIX ?= /usr/local
+export PREFIX SPEEDS FUZZ SEED CASES FIRST FREQUENCIES LINKAGES LOADS VIBRATIONS
 
 program = build/release/flexmech
 of_mpi  = build/mpi/flexmech
@@ -30,7 +34,7 @@ ifndef kind
         install setup clean help
 
 # Somebody's environment may have another meaning of it.
-$(if $(findstring command,$(origin MPI)),$(if $(filter-out yes no,$(MPI)),$(error MPI=$(MPI): yes or no)))
+$(if $(findstring override,$(origin MPI)),$(if $(filter-out yes no,$(MPI)),$(error MPI=$(MPI): yes or no)))
 
 all: setup
 	$(stage) kind=release $(program) $(if $(filter yes,$(MPI)),$(of_mpi))
@@ -50,20 +54,22 @@ thesis: all
 	@sh plots/draw_figures.sh outputs/mechanism1
 	@sh plots/draw_figures.sh outputs/mechanism2
 
-# need FILE,COMPLAINT,EXAMPLE: go no further without the file
-need = @test -f "$(1)" || { echo "make: $(2); say: make $@ $(3)" >&2; exit 2; }
-need_deck = $(call need,$(DECK),$(if $(DECK),there is no file $(DECK),DECK is missing),DECK=inputs/mechanism1.deck)
-need_case = $(call need,inputs/$(CASE).deck,$(if $(CASE),there is no inputs/$(CASE).deck,CASE is missing),CASE=mechanism1)
+# need NAME,FILE,COMPLAINT,EXAMPLE: go no further without the file that the variable tells
+need = @test -f "$(2)" || { why=$${$(1):+there is no $(3)}; printf 'make: %s; say: make $@ $(1)=$(4)\n' "$${why:-$(1) is missing}" >&2; exit 2; }
+need_deck = $(call need,DECK,$$DECK,file $$DECK,inputs/mechanism1.deck)
+need_case = $(call need,CASE,inputs/$$CASE.deck,inputs/$$CASE.deck,mechanism1)
 
 run: all
 	$(need_deck)
-	$(program) "$(DECK)"
+	$(program) -- "$$DECK"
 
 # FORMAT=svg, SIZE=1200x800, TITLES=no, ERRORS=yes: what flexmech-plot has options for.
-yes_or_no = @case "$($(1))" in ''|yes|no) ;; *) echo "make: $(1)=$($(1)): yes or no" >&2; exit 2 ;; esac
-figure_options = $(if $(FORMAT),--format "$(FORMAT)") $(if $(SIZE),--size "$(SIZE)") $(if $(filter no,$(TITLES)),--no-titles) \
-                 $(if $(filter yes,$(ERRORS)),--errors)
+yes_or_no = @case $$$(1) in ''|yes|no) ;; *) printf 'make: $(1)=%s: yes or no\n' "$$$(1)" >&2; exit 2 ;; esac
+figure_options = $${FORMAT:+--format "$$FORMAT"} $${SIZE:+--size "$$SIZE"} $$([ "$$TITLES" != no ] || echo --no-titles) \
+                 $$([ "$$ERRORS" != yes ] || echo --errors)
 draw = FLEXMECH_PLOT=make sh plots/draw_figures.sh
+# What the program has written of the deck: its name without folder and ending.
+draw_deck = @name=$${DECK\#\#*/}; stem=$${name%.*}; $(draw) $(1) -- "outputs/$${stem:-$$name}"
 
 figures: all
 	$(need_deck)
@@ -71,13 +77,13 @@ figures: all
 	$(call yes_or_no,ERRORS)
 	@$(draw) $(figure_options) --help > /dev/null
 	@# Exit status 1: some rows could not be computed. The figures show where.
-	$(program) "$(DECK)" || test $$? -eq 1
-	@name=$$(basename "$(DECK)"); $(draw) $(figure_options) "outputs/$${name%.*}"
+	$(program) -- "$$DECK" || test $$? -eq 1
+	$(call draw_deck,$(figure_options))
 
 animate: all
 	$(need_deck)
-	$(program) "$(DECK)" || test $$? -eq 1
-	@name=$$(basename "$(DECK)"); $(draw) --animate "outputs/$${name%.*}"
+	$(program) -- "$$DECK" || test $$? -eq 1
+	$(call draw_deck,--animate)
 
 check: setup
 	@rm -f build/check.count
@@ -92,7 +98,7 @@ check-all: all debug
 	$(stage) kind=debug build/debug/bench/bench
 	$(stage) kind=release build/release/$(unit_tests) build/release/bench/bench build/release/stress/responses build/release/stress/stability \
 	    build/release/stress/read_words
-	@python3 -B $(support)/check_all.py $(unit_tests) $(ONLY)
+	@set -f; python3 -B $(support)/check_all.py $(unit_tests) $$ONLY
 
 # Numbers of the documents that runs of some seconds give. STRESS=yes: those of the last `make stress` instead.
 documents: all
@@ -100,7 +106,7 @@ documents: all
 
 bench: all
 	$(stage) kind=release build/release/bench/bench
-	build/release/bench/bench $(program) outputs/bench $(BLAS)
+	build/release/bench/bench $(program) outputs/bench "$$BLAS"
 	@sh plots/draw_bench.sh outputs/bench
 
 # The pictures of docs/performance.md, from the last `make bench`.
@@ -111,13 +117,13 @@ bench-pictures:
 SPEEDS ?= 50
 stress-stability: all
 	$(stage) kind=release build/release/stress/stability
-	build/release/stress/stability $(if $(filter file,$(origin CASES)),20,$(CASES)) $(SPEEDS) $(shell nproc) $(FIRST)
+	build/release/stress/stability $(if $(filter file,$(origin CASES)),20,"$$CASES") "$$SPEEDS" $(shell nproc) "$$FIRST"
 
 # The same SEED makes the same decks.
 FUZZ ?= 10000
 SEED ?= 1
 fuzz: debug
-	@python3 -B $(support)/fuzz.py $(FUZZ) $(SEED)
+	@python3 -B $(support)/fuzz.py "$$FUZZ" "$$SEED"
 
 memory:
 	@SANITIZERS=yes sh $(support)/setup.sh
@@ -134,33 +140,33 @@ FIRST ?= 1
 stress-responses: all
 	$(stage) kind=release build/release/stress/responses
 	@mkdir -p outputs/stress
-	build/release/stress/responses $(CASES) $(shell nproc) outputs/stress/responses.dat $(FIRST)
+	build/release/stress/responses "$$CASES" $(shell nproc) outputs/stress/responses.dat "$$FIRST"
 
 # The same SEED makes the same decks.
 FREQUENCIES ?= 100000
 accuracies: all
-	@python3 -B tests/stress/compare_accuracies.py $(program) --frequencies $(FREQUENCIES) --seed $(SEED)
+	@python3 -B tests/stress/compare_accuracies.py $(program) --frequencies "$$FREQUENCIES" --seed "$$SEED"
 
 # Decks with known values, and random linkages against an independent solver: linkage SEED and those after it.
 LINKAGES ?= 300
 linkages: all
 	@python3 -B tests/linkages/anchors.py --program $(program)
-	@python3 -B tests/linkages/random_linkages.py $(SEED) $(LINKAGES) --program $(program)
-	@python3 -B tests/linkages/random_motions.py $(SEED) $(LINKAGES) --program $(program)
+	@python3 -B tests/linkages/random_linkages.py "$$SEED" "$$LINKAGES" --program $(program)
+	@python3 -B tests/linkages/random_motions.py "$$SEED" "$$LINKAGES" --program $(program)
 
 # Random linkages with loads, springs, dampers and friction, in tables and in motion, likewise.
 LOADS ?= 1000
 loads: all
-	@python3 -B tests/linkages/random_loads.py $(SEED) $(LOADS) --program $(program)
-	@python3 -B tests/linkages/random_load_motions.py $(SEED) $(LOADS) --program $(program)
+	@python3 -B tests/linkages/random_loads.py "$$SEED" "$$LOADS" --program $(program)
+	@python3 -B tests/linkages/random_load_motions.py "$$SEED" "$$LOADS" --program $(program)
 
 # Decks with exact frequencies, and random linkages that vibrate against counts of eigenvalues, likewise.
 VIBRATIONS ?= 1000
 vibrations: all
 	@python3 -B tests/linkages/exact_frequencies.py --program $(program)
-	@python3 -B tests/linkages/random_vibrations.py $(SEED) $(VIBRATIONS) --program $(program)
-	@python3 -B tests/linkages/random_vibrations.py $(SEED) $(shell expr $(VIBRATIONS) / 20 + 1) --kind many --program $(program)
-	@python3 -B tests/linkages/random_vibrations.py $(SEED) $(shell expr $(VIBRATIONS) / 5 + 1) --kind slotted --program $(program)
+	@python3 -B tests/linkages/random_vibrations.py "$$SEED" "$$VIBRATIONS" --program $(program)
+	@python3 -B tests/linkages/random_vibrations.py "$$SEED" $$(expr "$$VIBRATIONS" / 20 + 1) --kind many --program $(program)
+	@python3 -B tests/linkages/random_vibrations.py "$$SEED" $$(expr "$$VIBRATIONS" / 5 + 1) --kind slotted --program $(program)
 
 # Times of tasks, ranks here, and a farm of sleeping ranks against its model: docs/scaling.md.
 scaling:
@@ -174,21 +180,22 @@ references: all quad
 
 golden: all
 	$(need_case)
-	@rm -rf "build/golden/$(CASE)"
+	@rm -rf "build/golden/$$CASE"
 	@# Exit status 1: some rows could not be computed, which may be what the case is there to show.
-	$(program) --out build/golden "inputs/$(CASE).deck" || test $$? -eq 1
-	@rm -rf "tests/golden/$(CASE)" && mkdir -p "tests/golden/$(CASE)"
-	cp build/golden/$(CASE)/*.dat "tests/golden/$(CASE)/"
+	$(program) --out build/golden "inputs/$$CASE.deck" || test $$? -eq 1
+	@rm -rf "tests/golden/$$CASE" && mkdir -p "tests/golden/$$CASE"
+	cp "build/golden/$$CASE"/*.dat "tests/golden/$$CASE/"
 
-share = $(DESTDIR)$(PREFIX)/share
+there = $$DESTDIR$$PREFIX
+share = $(there)/share
 # Not `all`: `sudo make install` after `make` must not write into build/ as root.
 install:
 	@test -x $(program) || { echo "make: nothing is built yet; say: make" >&2; exit 2; }
-	install -d "$(DESTDIR)$(PREFIX)/bin" "$(DESTDIR)$(PREFIX)/share/flexmech" "$(share)/man/man1" \
+	install -d -- "$(there)/bin" "$(share)/flexmech" "$(share)/man/man1" \
 	    "$(share)/bash-completion/completions" "$(share)/zsh/site-functions" "$(share)/fish/vendor_completions.d"
-	install -m 755 $(program) "$(DESTDIR)$(PREFIX)/bin/flexmech"
-	cp -R plots library "$(DESTDIR)$(PREFIX)/share/flexmech/"
-	install -m 755 plots/flexmech-plot "$(DESTDIR)$(PREFIX)/bin/flexmech-plot"
+	install -m 755 -- $(program) "$(there)/bin/flexmech"
+	cp -R -- plots library "$(share)/flexmech/"
+	install -m 755 -- plots/flexmech-plot "$(there)/bin/flexmech-plot"
 	$(program) --man > "$(share)/man/man1/flexmech.1"
 	$(program) --completion bash > "$(share)/bash-completion/completions/flexmech"
 	$(program) --completion zsh > "$(share)/zsh/site-functions/_flexmech"

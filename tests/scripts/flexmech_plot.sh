@@ -177,6 +177,36 @@ installed() {
   [ $? -eq 1 ] && says "make install"
 }
 
+# made STATUS ARGUMENT...: make in a folder like this one, which builds nothing.
+made() {
+  wanted=$1
+  shift
+  make --no-print-directory -s -C "$tree" -o all "$@" >"$scratch/stdout" 2>"$scratch/stderr"
+  found=$?
+  [ $found -eq "$wanted" ] || { echo "make $*: status $found, not $wanted"; head -n 5 "$scratch/stderr"; return 1; }
+}
+
+# What is typed at make is a text, whatever it means to make or to the shell.
+typed_at_make() {
+  tree=$scratch/tree
+  text='it'\''s "a" `touch run` $(touch run) $$x$ $(shell touch run); touch run; \n %s &|*?[é] #'
+  mkdir "$tree" && cp -R Makefile plots library "$tree" && ln -s "$(pwd)/build" "$tree/build" || return 1
+  for name in -dash "$text"; do
+    motion_deck >"$tree/$name.deck"
+    made 0 figures DECK="$name.deck" && [ -s "$tree/outputs/$name/figures/kinematics_angles.png" ] || { echo "no figures of $name"; return 1; }
+    (export DECK="$name.deck" && made 0 run) || return 1
+  done
+  for name in FORMAT SIZE TITLES ERRORS; do
+    made 2 figures DECK=-dash.deck "$name=$text" && says "make: $name=$text: " || return 1
+  done
+  made 2 animate DECK="$text" && says "there is no file $text;" && made 2 run && says "DECK is missing" &&
+    made 2 golden CASE="$text" && says "there is no inputs/$text.deck" || return 1
+  made 0 install PREFIX="/$text" DESTDIR="$text" && [ -x "$tree/$text/$text/bin/flexmech-plot" ] && made 0 install PREFIX=-dash &&
+    [ -x "$tree/-dash/bin/flexmech" ] || { echo "nothing is installed"; return 1; }
+  made 0 -n accuracies linkages loads vibrations SEED="$text" LOADS="$text" FREQUENCIES="$text" LINKAGES="$text" VIBRATIONS="$text" &&
+    ! grep -F "touch run" "$scratch/stdout" && absent "$tree/run"
+}
+
 # whole FIGURE SCRIPT ARGUMENT...: drawn as an SVG without a complaint, no word cut.
 whole() {
   figure=$scratch/$1
@@ -229,5 +259,6 @@ check "figures without panels of zeros, with units" zeros
 check "figures against a parameter" parameters
 check "figures with other terminals" other_terminals
 check "flexmech-plot: installed" installed
+check "what is typed at make is a text" typed_at_make
 check "figures of the stress test" stress_figures
 check "figures of make bench" bench_figures
