@@ -23,9 +23,15 @@ END {
     gsub(/-/, "_", function_name)
     print "# Completion of " name " in bash."
     print function_name "() {"
-    print "  local word=${COMP_WORDS[COMP_CWORD]}"
+    print "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}"
     print "  COMPREPLY=()"
-    print "  case ${COMP_WORDS[COMP_CWORD-1]} in"
+    # bash takes the = of --format=svg for a word.
+    print "  if [[ $word == = ]]; then"
+    print "    word="
+    print "  elif [[ $before == = ]]; then"
+    print "    before=${COMP_WORDS[COMP_CWORD-2]}"
+    print "  fi"
+    print "  case $before in"
     for (i = 1; i <= number; i++) {
         print "    " valued[i] ")"
         if (of[i] != "") print "      mapfile -t COMPREPLY < <(compgen -W '" of[i] "' -- \"$word\")"

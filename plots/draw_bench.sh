@@ -7,8 +7,8 @@ set -u
 command -v gnuplot > /dev/null || { echo 'draw_bench.sh: gnuplot is not installed' >&2; exit 1; }
 LC_ALL=C.UTF-8
 export LC_ALL
-plots=$(CDPATH='' cd "$(dirname "$0")" && pwd) || exit 1
-cd "$1" || exit 1
+plots=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd) || exit 1
+CDPATH='' cd -- "$1" || exit 1
 
 # draw SCRIPT TABLE FIGURE ARGUMENT...
 draw() {

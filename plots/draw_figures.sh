@@ -45,6 +45,7 @@ END_OF_HELP
 
 # size_words SIZE: width, height and unit of 1200x800 or 160x100mm, if that is a size.
 size_words() {
+    case $1 in *[!0-9xpm]*) return ;; esac
     printf '%s\n' "$1" | sed -n 's/^\([0-9][0-9]*\)x\([0-9][0-9]*\)$/\1 \2 px/p; s/^\([0-9][0-9]*\)x\([0-9][0-9]*\)\(px\|mm\)$/\1 \2 \3/p' |
         awk '{ least = $3 == "mm" ? 40 : 150; most = $3 == "mm" ? 2000 : 10000 }
             $1 >= least && $1 <= most && $2 >= least && $2 <= most'
@@ -57,20 +58,32 @@ titles=yes
 errors=no
 wanted=
 options=
-folders=0
+ended=
 while [ $# -gt 0 ]; do
-    case $1 in
+    option=${1%%=*}
+    case $option in
         --format | --size)
-            [ $# -gt 1 ] || misused "$1 takes a value"
-            [ "$1" = --format ] && format=$2
-            [ "$1" = --size ] && size=$2
-            options="$options $1 $2"
-            shift ;;
-        --animate) figures=animations options="$options $1" ;;
-        --errors) errors=yes options="$options $1" ;;
-        --no-titles) titles=no options="$options $1" ;;
-        --help | --version) wanted=$1 ;;
+            case $1 in
+                *=*) value=${1#*=} ;;
+                *)
+                    [ $# -gt 1 ] || misused "$option takes a value"
+                    value=$2
+                    shift ;;
+            esac
+            [ -n "$value" ] || misused "$option takes a value"
+            [ $option = --format ] && format=$value || size=$value
+            options="$options $option $value" ;;
+        --animate | --errors | --no-titles | --help | --version)
+            [ "$option" = "$1" ] || misused "$option takes no value: $1"
+            case $option in
+                --animate) figures=animations ;;
+                --errors) errors=yes ;;
+                --no-titles) titles=no ;;
+                *) wanted=$option ;;
+            esac
+            options="$options $option" ;;
         --)
+            ended=yes
             shift
             break ;;
         -?*) misused "unknown option $1" ;;
@@ -81,11 +94,10 @@ done
 # Typed at make, options have other names.
 [ "$command" = make ] && format_option=FORMAT= && size_option=SIZE= || { format_option='--format '; size_option='--size '; }
 for folder in "$@"; do
-    case $folder in
+    case $ended${folder%%=*} in
         --animate | --errors | --no-titles | --format | --size | --help | --version)
             misused "options stand before the folder: $folder" ;;
     esac
-    folders=$((folders + 1))
 done
 case $format in
     '' | png | svg | pdf) ;;
@@ -109,13 +121,13 @@ fi
 
 script=$0
 while [ -h "$script" ]; do
-    target=$(readlink "$script")
+    target=$(readlink -- "$script")
     case $target in
         /*) script=$target ;;
-        *) script=$(dirname "$script")/$target ;;
+        *) script=$(dirname -- "$script")/$target ;;
     esac
 done
-PLOTS=$(CDPATH='' cd "$(dirname "$script")" && pwd) || exit 1
+PLOTS=$(CDPATH='' cd -- "$(dirname -- "$script")" && pwd) || exit 1
 export PLOTS
 
 # Linkages are placed by the program: the one that FLEXMECH names, else that of this checkout, the one installed with these
@@ -128,7 +140,7 @@ else
         places "$FLEXMECH" && break
     done
 fi
-case $FLEXMECH in */*) FLEXMECH=$(CDPATH='' cd "$(dirname "$FLEXMECH")" && pwd)/$(basename "$FLEXMECH") ;; esac
+case $FLEXMECH in */*) FLEXMECH=$(CDPATH='' cd -- "$(dirname -- "$FLEXMECH")" && pwd)/${FLEXMECH##*/} ;; esac
 export FLEXMECH
 
 if [ "$wanted" = --version ]; then
@@ -136,8 +148,8 @@ if [ "$wanted" = --version ]; then
     printf '%s %s\n' "$command" "${version#flexmech }"
     exit
 fi
-[ $folders -gt 0 ] || misused 'the folder with the tables of a deck is missing'
-if [ $folders -gt 1 ]; then
+[ $# -gt 0 ] || misused 'the folder with the tables of a deck is missing'
+if [ $# -gt 1 ]; then
     status=0
     for folder in "$@"; do
         # The options are plain words.
@@ -146,12 +158,13 @@ if [ $folders -gt 1 ]; then
     exit $status
 fi
 outdir=${1%/}
-[ ! -f "$outdir" ] || fail "$outdir is a file: name the folder with the tables of a deck, such as outputs/mechanism1" 2
-[ -d "$outdir" ] || fail "no folder $outdir" 2
+# No name for `cd` that begins with a dash, or that CDPATH leads elsewhere.
+case $1 in /*) folder=$1 ;; *) folder=${1:+./$1} ;; esac
+[ ! -f "$folder" ] || fail "$outdir is a file: name the folder with the tables of a deck, such as outputs/mechanism1" 2
+[ -d "$folder" ] || fail "no folder $outdir" 2
 command -v gnuplot > /dev/null || fail 'gnuplot is not installed'
 
-cd "$outdir" || fail "cannot enter $outdir"
-deck=$(basename "$(pwd)")
+cd "$folder" || fail "cannot enter $outdir"
 new=.figures.$$
 trap 'rm -rf "$new"' EXIT
 trap 'exit 130' INT
@@ -245,7 +258,7 @@ put_over_time() {
         /^#/ && !body && !/^# *failed / { if (NR > 2) print before; before = last; last = $0; next }
         !body { body = 1; if (NR > 2) { print written(before); print written(last) } }
         { print /^#/ || NF == 0 ? $0 : written($0) }
-        END { if (!body) { print written(before); print written(last) } }' "$1" > "$new/over_time/$1"
+        END { if (!body) { print written(before); print written(last) } }' < "$1" > "$new/over_time/$1"
 }
 
 # A position that shows the mechanism well: the one nearest to 60 degrees.
@@ -620,9 +633,9 @@ fi
 # The plan becomes calls of the scripts, dealt out to two runs of gnuplot (starting one for each figure takes longer).
 : > "$new/draw0"
 : > "$new/draw1"
-awk -v deck="$deck" -v new="$new" -v animated="${figures#figures}" "$quoting"'
+DECK=${PWD##*/} awk -v new="$new" -v animated="${figures#figures}" "$quoting"'
     NR == FNR {
-        if ($1 != deck || animated) next
+        if ($1 != ENVIRON["DECK"] || animated) next
         number[$2] = $3
         file[$2] = $4
         for (i = 5; i <= NF; i++) remark[$2] = remark[$2] (i > 5 ? " " : "") $i
@@ -664,7 +677,7 @@ cat "$new"/undrawn? 2> /dev/null | sort > "$new/undrawn"
 
 mkdir -p $figures || fail "cannot write into $outdir/$figures"
 if [ -f $figures/drawn.txt ]; then
-    while read -r name; do
+    while IFS= read -r name; do
         case $name in
             '' | '#'* | */*) ;;
             *) rm -f "$figures/$name" ;;
@@ -672,19 +685,19 @@ if [ -f $figures/drawn.txt ]; then
     done < $figures/drawn.txt
 fi
 echo '# Drawn by draw_figures.sh, which removes these files when it draws again.' > "$new/drawn.txt"
-while read -r name; do
+while IFS= read -r name; do
     ! grep -qxF -e "$name" "$new/undrawn" || continue
     drawn=
     for ending in png svg pdf gif; do
         [ -s "$new/$name.$ending" ] || continue
         drawn=$name.$ending
-        echo "$drawn" >> "$new/drawn.txt"
+        printf '%s\n' "$drawn" >> "$new/drawn.txt"
         mv -f "$new/$drawn" $figures/ || fail "cannot write into $outdir/$figures"
     done
-    [ -n "$drawn" ] || echo "$name" >> "$new/undrawn"
+    [ -n "$drawn" ] || printf '%s\n' "$name" >> "$new/undrawn"
 done < "$new/sorted"
 cp "$new/drawn.txt" $figures/drawn.txt || fail "cannot write into $outdir/$figures"
-sed -n "/^#/!p" $figures/drawn.txt | while read -r name; do
+sed -n "/^#/!p" $figures/drawn.txt | while IFS= read -r name; do
     printf '%s/%s/%s\n' "$outdir" $figures "$name"
 done
-[ ! -s "$new/undrawn" ] || fail "not drawn, since gnuplot failed: $(sort -u "$new/undrawn" | sed "s|^|$outdir/$figures/|" | paste -s -d' ' -)"
+[ ! -s "$new/undrawn" ] || fail "not drawn, since gnuplot failed:$(sort -u "$new/undrawn" | while IFS= read -r name; do printf ' %s/%s/%s' "$outdir" $figures "$name"; done)"

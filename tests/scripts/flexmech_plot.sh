@@ -49,8 +49,16 @@ wrong_options() {
     refused "--size 1200: WIDTHxHEIGHT of 150 to 10000 pixels or 40 to 2000 mm each" --size 1200 "$scratch/moves" &&
     refused "--size 12x8:" --size 12x8 "$scratch/moves" &&
     refused "--size 1200x800in:" --size 1200x800in "$scratch/moves" &&
+    refused "--size takes a value" --size= "$scratch/moves" &&
+    refused "--format takes a value" --format "" "$scratch/moves" &&
+    refused "--size 1200x800" --size "$(printf '1200x800\n900')" "$scratch/moves" &&
+    refused "--errors takes no value: --errors=1" --errors=1 "$scratch/moves" &&
+    refused "--help takes no value" --help= "$scratch/moves" &&
+    refused "unknown option --formt=svg" --formt=svg "$scratch/moves" &&
     refused "--animate takes no --format, --size or --errors" --animate --format svg "$scratch/moves" &&
     refused "options stand before the folder: --errors" "$scratch/moves" --errors &&
+    refused "options stand before the folder: --size=3" "$scratch/moves" --size=3 &&
+    refused "no folder " "" &&
     refused "the folder with the tables of a deck is missing" --errors &&
     refused "no folder $scratch/nowhere" "$scratch/nowhere" &&
     refused "moves.deck is a file: name the folder" "$scratch/moves.deck"
@@ -62,6 +70,28 @@ help_and_version() {
     grep -q -e "$option" "$scratch/stdout" || { echo "the help has no $option"; return 1; }
   done
   plot 0 --version && [ "$(cat "$scratch/stdout")" = "flexmech-plot $("$program" --version | sed 's/flexmech //')" ] || cat "$scratch/stdout"
+}
+
+values_behind_equal_signs() {
+  plot 0 --format=svg --size=900x700 --no-titles "$scratch/swings" && silent && shows 'width="900" height="700"' "$scratch/swings/figures/frequencies.svg" &&
+    shows_not "Natural frequencies" "$scratch/swings/figures/frequencies.svg" || return 1
+  plot 0 --format=pdf "$scratch/swings" "$scratch/swings" && [ "$(grep -c 'frequencies\.pdf$' "$scratch/stdout")" -eq 2 ]
+}
+
+# Whatever the name of a folder, or of that of the scripts, means to the shell, to awk or to gnuplot.
+odd_folders() {
+  odd=$(printf 'it'\''s "a" `touch run` $(touch run) $x; \\n\\ %%s &|*?[\303\251] @x #\nb')
+  mkdir "$scratch/odd" "$scratch/odd/$odd" && cp -R plots "$scratch/odd/$odd" || return 1
+  for name in "$odd" -dash - --errors --size=3; do
+    mkdir -p "$scratch/odd/$name" && cp "$scratch/swings/"*.dat "$scratch/odd/$name" || return 1
+  done
+  (cd "$scratch/odd" && CDPATH=$scratch FLEXMECH=$program sh "./$odd/plots/flexmech-plot" --format svg -- "$odd" -dash - --errors --size=3) \
+    >"$scratch/stdout" 2>"$scratch/stderr" || { cat "$scratch/stderr"; return 1; }
+  for name in "$odd" -dash - --errors --size=3; do
+    grep -qxF -e "$(printf '%s' "$name" | tail -n 1)/figures/frequencies.svg" "$scratch/stdout" && [ -s "$scratch/odd/$name/figures/frequencies.svg" ] ||
+      { echo "no figures of $name"; return 1; }
+  done
+  absent "$scratch/odd/run" "$scratch/odd/$odd/run" run
 }
 
 several_folders() {
@@ -252,6 +282,8 @@ check "flexmech-plot: tables to draw" tables
 check "flexmech-plot: wrong options" wrong_options
 check "flexmech-plot: help and version" help_and_version
 check "flexmech-plot: several folders" several_folders
+check "flexmech-plot: values behind =" values_behind_equal_signs
+check "flexmech-plot: folders with odd names" odd_folders
 check "flexmech-plot: formats and sizes" formats
 check "flexmech-plot: bare figures" bare
 check "flexmech-plot: errors on request" errors_on_request

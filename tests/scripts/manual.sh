@@ -92,7 +92,7 @@ bash_completes_plot() {
   bash -n "$file" || return 1
   mkdir -p "$scratch/folder/deep"
   offers "$(plot_options | LC_ALL=C sort | tr -d ' ' | tr '\n' ' ' | sed 's/ $//')" -- && offers "--format" --fo &&
-    offers "pdf png svg" --format "" && offers "" --size "" && offers "deep" ""
+    offers "pdf png svg" --format "" && offers "" --size "" && offers "deep" "" && offers "png" --format = pn && offers "pdf png svg" --format =
 }
 
 # other_shell SHELL: takes its file
