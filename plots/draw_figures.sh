@@ -151,9 +151,12 @@ fi
 [ $# -gt 0 ] || misused 'the folder with the tables of a deck is missing'
 if [ $# -gt 1 ]; then
     status=0
+    trap 'kill ${!-} 2> /dev/null; wait; exit 130' INT
+    trap 'kill ${!-} 2> /dev/null; wait; exit 143' TERM HUP
     for folder in "$@"; do
-        # The options are plain words.
-        sh "$PLOTS/draw_figures.sh" $options -- "$folder" || status=1
+        # The options are plain words. A shell obeys a signal while it waits, not while it runs something.
+        sh "$PLOTS/draw_figures.sh" $options -- "$folder" &
+        wait $! || status=1
     done
     exit $status
 fi
@@ -166,11 +169,22 @@ command -v gnuplot > /dev/null || fail 'gnuplot is not installed'
 
 cd "$folder" || fail "cannot enter $outdir"
 new=.figures.$$
-trap 'rm -rf "$new"' EXIT
+drawing=
+first=
+# A process that begins just now may not hear the signal; without the folder it can draw nothing.
+trap '{ rm -rf $new; [ -z "$drawing" ] || { kill $first ${!-}; wait; rm -rf $new; }; } 2> /dev/null' EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM HUP
 trap 'exit 141' PIPE
-mkdir "$new" || fail "cannot write into $outdir"
+# Such a folder of a run that was killed goes. That of one that lives is locked, whatever the number of its process means here.
+[ ! -d $new ] || flock -n $new rm -rf $new
+mkdir $new || fail "cannot write into $outdir"
+exec 8< $new && flock 8 2> /dev/null
+for left in .figures.[0-9]*; do
+    number=${left#.figures.}
+    case $number in *[!0-9]*) continue ;; esac
+    [ ! -d "$left" ] || kill -0 "$number" 2> /dev/null || ! flock -n "$left" true || mv "$left" $new
+done
 
 # ask WANT TABLE: see tables.awk
 ask() { awk -v want="$1" -f "$PLOTS/quoted.awk" -f "$PLOTS/tables.awk" < "$2"; }
@@ -653,21 +667,29 @@ DECK=${PWD##*/} awk -v new="$new" -v animated="${figures#figures}" "$quoting"'
     }' "$PLOTS/thesis_figures.txt" "$new/plan" || fail 'awk failed'
 
 # draw_all RUN SETTINGS: the calls of a run. Where one fails gnuplot ends, and begins again behind it.
-# The scripts are UTF-8; in the C locale gnuplot warns about every degree sign.
+# The scripts are UTF-8; in the C locale gnuplot warns about every degree sign. `timeout 0` passes a signal on to all that gnuplot runs.
 draw_all() {
+    trap 'kill $!; wait; exit 1' TERM
+    exec 8<&-
     done_calls=0
-    while ! tail -n +$((done_calls + 1)) "$new/draw$1" | LC_ALL=C.UTF-8 gnuplot -e "$2" - 2>> "$new/told$1"; do
+    while
+        tail -n +$((done_calls + 1)) "$new/draw$1" | LC_ALL=C.UTF-8 timeout 0 gnuplot -e "$2" - 2>> "$new/told$1" &
+        ! wait $!
+    do
         failed_call=$(cat "$new/at$1" 2> /dev/null) && [ "$failed_call" -gt $done_calls ] || return 1
         done_calls=$failed_call
         sed -n "${failed_call}p" "$new/names$1" >> "$new/undrawn$1"
     done
 }
+drawing=yes
 draw_all 0 "$settings; fallback_told = 1" &
 first=$!
-draw_all 1 "$settings"
+draw_all 1 "$settings" &
+wait $!
 second_status=$?
 wait "$first"
 first_status=$?
+drawing=
 # It counts the pictures of an animation on standard error.
 sed '/^[0-9]* frames in animation sequence$/d' "$new/told0" "$new/told1" >&2
 sort "$new"/names? > "$new/sorted"
@@ -675,6 +697,8 @@ cat "$new"/undrawn? 2> /dev/null | sort > "$new/undrawn"
 [ $first_status -eq 0 ] && [ $second_status -eq 0 ] && ! cmp -s "$new/sorted" "$new/undrawn" ||
     fail "gnuplot failed: $outdir/$figures is left as it was"
 
+# Two runs into one folder: one after the other from here on.
+exec 9< . && flock 9 2> /dev/null
 mkdir -p $figures || fail "cannot write into $outdir/$figures"
 if [ -f $figures/drawn.txt ]; then
     while IFS= read -r name; do

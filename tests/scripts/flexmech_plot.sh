@@ -237,6 +237,61 @@ typed_at_make() {
     ! grep -F "touch run" "$scratch/stdout" && absent "$tree/run"
 }
 
+# slow_plot SIGNAL FOLDER...: sent a signal while gnuplot, which takes two seconds for nothing, is at work.
+slow_plot() {
+  rm -f "$scratch/begun"
+  signal=$1
+  shift
+  PATH=$scratch/slow:$PATH python3 -c 'import os, signal, sys
+for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
+    signal.signal(number, signal.SIG_DFL)
+os.execvp("sh", sys.argv[1:])' \
+    sh plots/flexmech-plot "$@" >"$scratch/stdout" 2>"$scratch/stderr" &
+  while [ ! -e "$scratch/begun" ] && kill -0 $!; do sleep 0.1; done
+  kill -s "$signal" $!
+  wait $!
+}
+
+# Of a run that a signal ends nothing stays, nor does it go on. One that is killed leaves a folder, which goes with the next run.
+signals() {
+  mkdir -p "$scratch/slow"
+  printf '#!/bin/sh\ncase $* in *GPVAL*) exec %s "$@" ;; esac\n: >"%s/begun"\nsleep 2\n: >"%s/lived"\n' "$(command -v gnuplot)" "$scratch" "$scratch" \
+    >"$scratch/slow/gnuplot"
+  chmod +x "$scratch/slow/gnuplot"
+  for wanted in INT:130 TERM:143 HUP:143; do
+    for folders in "$scratch/moves" "$scratch/moves $scratch/swings"; do
+      slow_plot ${wanted%:*} $folders
+      found=$?
+      [ $found -eq ${wanted#*:} ] && absent "$scratch/moves/.figures."* || { echo "$wanted: status $found"; return 1; }
+    done
+  done
+  sleep 2
+  absent "$scratch/lived" || return 1
+  slow_plot KILL "$scratch/moves"
+  sleep 100 &
+  mkdir "$scratch/moves/.figures.$!" "$scratch/moves/.figures.1-b" && plot 0 "$scratch/moves" && rmdir "$scratch/moves/.figures.$!" "$scratch/moves/.figures.1-b"
+  found=$?
+  kill $!
+  [ $found -eq 0 ] && absent "$scratch/moves/.figures."*
+}
+
+# Several runs at once, which take long to move their figures: the folder has all those of the one that ended last.
+at_once() {
+  { motion_deck && printf 'SPEED 2\nPOINT p coupler along=10\nREPORT points\nREPORT pins\n'; } >"$scratch/paths.deck"
+  mkdir -p "$scratch/moving"
+  printf '#!/bin/sh\nsleep 0.2\nexec %s "$@"\n' "$(command -v mv)" >"$scratch/moving/mv"
+  chmod +x "$scratch/moving/mv"
+  run 0 --quiet --out "$scratch" "$scratch/paths.deck" || return 1
+  for format in svg pdf png; do
+    PATH=$scratch/moving:$PATH sh plots/flexmech-plot --format $format "$scratch/paths" >"$scratch/drawn.$format" 2>&1 &
+  done
+  wait
+  ls "$scratch/paths/figures" | grep -v -e drawn.txt -e gif >"$scratch/names"
+  [ "$(wc -l <"$scratch/names")" -eq 6 ] && sed '/^#/d; /gif/d' "$scratch/paths/figures/drawn.txt" | LC_ALL=C sort | cmp - "$scratch/names" &&
+    sed '/gif/d; s/.*figures.//' "$scratch/drawn.$(sed '1s/.*\.//; 1q' "$scratch/names")" | LC_ALL=C sort | cmp - "$scratch/names" &&
+    absent "$scratch/paths/.figures."*
+}
+
 # whole FIGURE SCRIPT ARGUMENT...: drawn as an SVG without a complaint, no word cut.
 whole() {
   figure=$scratch/$1
@@ -292,5 +347,7 @@ check "figures against a parameter" parameters
 check "figures with other terminals" other_terminals
 check "flexmech-plot: installed" installed
 check "what is typed at make is a text" typed_at_make
+check "flexmech-plot: signals" signals
+check "flexmech-plot: several runs at once" at_once
 check "figures of the stress test" stress_figures
 check "figures of make bench" bench_figures
