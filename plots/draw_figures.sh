@@ -178,7 +178,7 @@ trap 'exit 143' TERM HUP
 trap 'exit 141' PIPE
 # Such a folder of a run that was killed goes. That of one that lives is locked, whatever the number of its process means here.
 [ ! -d $new ] || flock -n $new rm -rf $new
-mkdir $new || fail "cannot write into $outdir"
+mkdir $new $new/wrong || fail "cannot write into $outdir"
 exec 8< $new && flock 8 2> /dev/null
 for left in .figures.[0-9]*; do
     number=${left#.figures.}
@@ -200,7 +200,8 @@ have() {
     return 1
 }
 
-# drawn_from SCRIPT [WHAT]: the columns of its table that a script draws, where `columns=` of a REPORT card may leave them out.
+# drawn_from SCRIPT [WHAT]: the columns of its table that a script draws, where it does not draw all, or `columns=` of a REPORT card may
+# leave them out; with a + those without which it draws the others. f stands for f1, f2, …
 drawn_from() {
     case $1 in
         kinematics.gp)
@@ -218,12 +219,16 @@ drawn_from() {
         shaking_force.gp) echo shaking_x shaking_y ;;
         joint_forces.gp) echo fx fy ;;
         bearings.gp) echo fx fy axial transverse magnitude ;;
-        lagrange.gp) echo torque kinetic potential ;;
+        lagrange.gp) echo +M +V +gravity +load torque kinetic potential ;;
         displacements.gp | pin_displacements.gp | deviation.gp) echo ux uy ;;
         deformed_linkage.gp | animate_response.gp) echo ux uy rotation ;;
         strains.gp | gauge_by_speed.gp) echo axial_strain bending_strain stress ;;
         drive.gp) echo rigid linear quadratic total power ;;
         largest_strain.gp) echo strain ;;
+        frequencies.gp | varied.gp) echo +f ;;
+        frequency_by_speed.gp) echo "f$2" ;;
+        errors.gp) echo +error ;;
+        linkage_positions.gp | animate_cycle.gp | animate_linkage.gp) echo crank ;;
     esac
 }
 
@@ -234,7 +239,7 @@ complete() {
     its_columns=" $(ask facts "$3" | tr ';' '\n' | sed -n 's/^ col_\([^ ]*\) = .*/\1/p' | tr '\n' ' ')"
     lacking=
     for column in $needed; do
-        case $its_columns in *" $column "*) ;; *) lacking="$lacking $column" ;; esac
+        case $column$its_columns in +* | *" $column "*) ;; *) lacking="$lacking $column" ;; esac
     done
     [ -n "$lacking" ] || return 0
     lacking="$1 is not drawn: $outdir/${3##*/} has no column$lacking (columns= of its REPORT card)"
@@ -243,9 +248,30 @@ complete() {
     return 1
 }
 
+# sound FIGURE SCRIPT TABLE [ARGUMENT…]: there are numbers and names in the tables where the figure needs them; what else there is, is
+# told at the end.
+sound() {
+    figure=$1
+    needed=" - $(drawn_from "$2" "${4-}" | tr -d +) "
+    shift 2
+    for table in "$@"; do
+        table=${table##*/}
+        case $table in *.dat) [ -f "$table" ] || continue ;; *) continue ;; esac
+        [ -f "$new/wrong/$table" ] || ask wrong "$table" > "$new/wrong/$table"
+        while read -r column fault; do
+            case $needed in
+                ' -  ' | *" $column "* | *" ${column%%[0-9]*} "*)
+                    printf '%s %s, %s\n' "$figure" "$table" "$fault" >> "$new/refused"
+                    return 1 ;;
+            esac
+        done < "$new/wrong/$table"
+        needed=' -  '               # of the first table some columns, of others all
+    done
+}
+
 # add FIGURE SCRIPT TABLE [ARGUMENT…]
 add() {
-    complete "$1" "$2" "$3" "${4-}" || return 0
+    sound "$@" && complete "$1" "$2" "$3" "${4-}" || return 0
     (IFS='|'; printf '%s\n' "$*") >> "$new/plan"
 }
 
@@ -321,7 +347,7 @@ named() {
         }'
 }
 
-# plan_speeds NAME TABLE [COLUMNS [SCRIPT]]: NAME.gp, or SCRIPT, draws one speed of the table, unless all these columns are zero.
+# plan_speeds NAME TABLE [COLUMNS [SCRIPT [TABLE]]]: NAME.gp, or SCRIPT, draws one speed of the table, unless all these columns are zero.
 plan_speeds() {
     speeds=$(ask 'distinct speed' "$2")
     n=$(printf '%s\n' "$speeds" | wc -l)
@@ -331,7 +357,7 @@ plan_speeds() {
     for speed in $speeds; do
         name=$1
         [ "$n" -eq 1 ] || name=$1_speed_$(printf '%s\n' "$speed_names" | awk -v speed="$speed" '$1 == speed { print $2; exit }')
-        add "$name" "${4-$1.gp}" "$2" "$speed"
+        add "$name" "${4-$1.gp}" "$2" "$speed" ${5:+"$5"}
     done
 }
 
@@ -390,10 +416,7 @@ plan_cycle() {
     plan_bearings
     shaking=
     [ -f shaking.dat ] && shaking=${over}shaking.dat
-    if have drive.dat; then
-        plan_speeds drive_forces "${over}drive.dat"
-        [ -z "$shaking" ] || sed -i "/drive_forces.gp/s#\$#|$shaking#" "$new/plan"
-    fi
+    have drive.dat && plan_speeds drive_forces "${over}drive.dat" '' drive_forces.gp "$shaking"
     have sizing.dat && [ -z "$over" ] && have drive.dat && add drive_locus drive_locus.gp sizing.dat drive.dat
     # Places of a slider have no directions, and by a law a force comes to one of them more than once.
     if [ -n "$cycle" ] && [ -z "$over" ] && ask facts "$cycle" | grep -q "unit_crank = 'deg'"; then
@@ -414,8 +437,7 @@ plan_cycle() {
 # have no directions, and figures of a law are over time.
 plan_bearings() {
     if have friction.dat; then
-        plan_speeds friction "${over}friction.dat" lost
-        [ -n "$over" ] || [ ! -f holding.dat ] || sed -i "/friction.gp/s#\$#|holding.dat#" "$new/plan"
+        plan_speeds friction "${over}friction.dat" lost friction.gp "$([ -n "$over" ] || ls holding.dat 2> /dev/null)"
     fi
     [ -z "$over" ] || return 0
     have bearings.dat && several bearings.dat && plan_speeds bearings bearings.dat magnitude
@@ -635,6 +657,15 @@ else
     fi
     plan_response
 fi
+# What tables have instead of numbers and names, and the figures that it costs.
+if [ -f "$new/refused" ]; then
+    awk '{ figure = $1; sub(/^[^ ]* /, "") }
+        !($0 in figures) { fault[++n] = $0 }
+        { figures[$0] = figures[$0] " " figure }
+        END { for (i = 1; i <= n; i++) print fault[i] "; not drawn:" figures[fault[i]] }' "$new/refused" |
+        while IFS= read -r line; do remark "$outdir/$line"; done
+    [ -s "$new/plan" ] || fail "$outdir/$figures is left as it was"
+fi
 if [ ! -s "$new/plan" ]; then
     ! ls ./*.csv > /dev/null 2>&1 || ls ./*.dat > /dev/null 2>&1 ||
         fail "$outdir has tables as comma-separated values only; figures are drawn from plain ones (without --format csv-only)"
@@ -725,3 +756,4 @@ sed -n "/^#/!p" $figures/drawn.txt | while IFS= read -r name; do
     printf '%s/%s/%s\n' "$outdir" $figures "$name"
 done
 [ ! -s "$new/undrawn" ] || fail "not drawn, since gnuplot failed:$(sort -u "$new/undrawn" | while IFS= read -r name; do printf ' %s/%s/%s' "$outdir" $figures "$name"; done)"
+[ ! -f "$new/refused" ] || exit 1

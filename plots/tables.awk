@@ -48,12 +48,12 @@
 #                                  the greatest value, where the drive is then, swing or stroke and time ratio (0: none), the name of what stops the
 #                                  drive at its greatest value
 #   want="turning"                 of the same table: the links that turn fully
+#   want="wrong"                   what is no number in a column of numbers, or no name in one of names, once a column: the column, or - where
+#                                  every figure needs it, then the line and what is wrong there
 #   want="varied"                  the columns of varied parameters: those before the table's own
 #   want="poses"                   the positions of geometry.dat, a line each: the crank angle, then for every
 #                                  pin of a link the link's number (0 the ground), its name, x and y, for every point the
 #                                  same with the number below 0; for springs and dampers the same with their part, | and name for it
-#   want="rows_by L"               the rows where the other parameters are those of the first row, as they are, with an empty line
-#                                  where such a variant has failed
 #   want="rows_by L"               the rows where the other parameters are those of the first row, as they are, with an empty line
 #                                  where such a variant has failed
 #   want="unit L"                  the unit of this column
@@ -115,14 +115,25 @@ asked[1] == "distinct" {
 asked[1] == "facts" {
     for (i = 1; i <= n_columns; i++) {
         number = $i + 0
-        if (rows == 1 || number < low[i]) low[i] = number
-        if (rows == 1 || number > high[i]) high[i] = number
+        if (!(number > -1e308 && number < 1e308)) continue       # what is no number has neither place
+        if (low[i] == "" || number < low[i]) low[i] = number
+        if (high[i] == "" || number > high[i]) high[i] = number
+    }
+}
+
+asked[1] == "wrong" {
+    if (NF != n_columns) tell_wrong("-", NF " values in " n_columns " columns")
+    for (i = 1; i <= n_columns; i++) {
+        if (!is_name(name[i])) tell_wrong("-", "no name of a column: " name[i])
+        if (name[i] == "unit") fits = $i ~ /^[A-Za-z0-9_.*\/%-]+$/
+        else fits = has_names(name[i]) ? is_name($i) : is_number($i) || $i == "-" && may_lack(name[i])
+        if (!fits) tell_wrong(has_names(name[i]) || i <= at["speed"] || name[i] ~ /^(crank|time)$/ ? "-" : name[i], name[i] " is " $i)
     }
 }
 
 asked[1] == "moving" && !($at["speed"] in moving) {
     for (i = 2; i <= n_asked; i++) {
-        if (asked[i] in at && $at[asked[i]] + 0 != 0) {
+        if (asked[i] in at && ($at[asked[i]] + 0 != 0 || !is_number($at[asked[i]]))) {
             if (!($at["speed"] in moving)) print cell("speed")
             moving[$at["speed"]] = 1
         }
@@ -142,6 +153,7 @@ asked[1] == "displaced" && ($at["ux"] + 0 != 0 || $at["uy"] + 0 != 0) {
 
 asked[1] == "range" {
     for (i = 2; i <= n_asked; i++) {
+        if (!is_number($at[asked[i]])) odd = 1
         number = $at[asked[i]] + 0
         if (least == "" || number < least) least = number
         if (greatest == "" || number > greatest) greatest = number
@@ -320,7 +332,7 @@ END {
     if (asked[1] == "facts") print_facts()
     if (asked[1] == "limits") print_limits()
     if (asked[1] == "unit") print unit[at[asked[2]]]
-    if (asked[1] == "range") print pointed(sprintf("%.12g", least)), pointed(sprintf("%.12g", greatest))
+    if (asked[1] == "range") print (odd ? "NaN" : pointed(sprintf("%.12g", least))), pointed(sprintf("%.12g", greatest))
     if (asked[1] == "positive" && least != "") print pointed(sprintf("%.12g", least)), pointed(sprintf("%.12g", greatest))
     if (asked[1] == "branches") print_branches()
     if (asked[1] == "events") print_events()
@@ -344,6 +356,31 @@ END {
     if (asked[1] == "band") print_bands()
     if (asked[1] == "nodes" || asked[1] == "masses") print_nodes()
     if (datablock) print "EOD"
+}
+
+# Too large a number is none.
+function is_number(text) {
+    return text ~ /^[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?$/ && text + 0 > -1e308 && text + 0 < 1e308
+}
+
+# Names of decks, and what the program makes of them: A:crank, (ground), 1+2.
+function is_name(text) { return text ~ /^[A-Za-z0-9_.\047:()+-]+$/ }
+
+# Where the program has no value it may write a dash.
+function may_lack(column) {
+    return column ~ /^(least|mean|greatest|band_error|[a-z]*_crank|quadratic|out_of_plane|distance|error)$/
+}
+
+function has_names(column) {
+    return column ~ /^(branch|drive|event|gauge|kind|link|linkage|modes|part|pin|place|point|quantity|unit|verdict)$/
+}
+
+# Once for every column; what is odd is shown as far as a terminal should see it.
+function tell_wrong(column, what) {
+    if (column in told_wrong) return
+    told_wrong[column] = 1
+    gsub(/[^ -~]/, "?", what)
+    print column, "line " NR ": " substr(what, 1, 60)
 }
 
 function name_columns(    i) {

@@ -237,6 +237,48 @@ typed_at_make() {
     ! grep -F "touch run" "$scratch/stdout" && absent "$tree/run"
 }
 
+# spoil TABLE COLUMN VALUE [ROW]: of a folder, in all rows or in one.
+spoil() {
+  [ -f "$1.whole" ] || cp "$1" "$1.whole" || return 1
+  value=$3 awk -v column="$2" -v row="${4-0}" '
+    /^#/ { if (!rows) { units = names; names = last; last = $0 } print; next }
+    NF && !rows++ { n = split(names, name, " "); for (i = 2; i <= n; i++) if (name[i] == column) at = i - 1 }
+    NF && (!row || row == rows) { $at = ENVIRON["value"] }
+    { print }' "$1.whole" >"$1"
+}
+
+# costs TEXT FIGURE...: the text is told of the tables of the deck `spoiled`; these figures are drawn, and no others.
+costs() {
+  rm -rf "$scratch/spoiled/figures"
+  plot 1 --format svg "$scratch/spoiled" && says "$1" || return 1
+  shift
+  [ "$(sed -n 's/^.*figures.\(.*\).svg$/\1/p' "$scratch/stdout" | tr '\n' ' ')" = "$* " ] || { echo "not $*:"; cat "$scratch/stdout"; return 1; }
+}
+
+# What is no number, or no name, costs the figures that need it.
+not_numbers() {
+  { motion_deck && printf 'SPEED 2\nPOINT p coupler along=10\nREPORT points\nREPORT pins\n'; } >"$scratch/spoiled.deck"
+  run 0 --quiet --out "$scratch" "$scratch/spoiled.deck" || return 1
+  table=$scratch/spoiled/kinematics.dat
+  others="coupler_curve kinematics_angles kinematics_velocities pin_motion point_rates"
+  for value in NaN -nan Inf -Infinity 1e999 '****' 1,5 "$(printf '1\033[7m')"; do
+    for row in 0 3; do
+      spoil "$table" alpha3 "$value" $row && costs "kinematics.dat, line" $others && says ": alpha3 is " && says "; not drawn: kinematics_accelerations" || return 1
+    done
+  done
+  spoil "$table" crank inf 2 && costs "crank is inf; not drawn: kinematics_angles kinematics_velocities kinematics_accelerations" coupler_curve pin_motion point_rates || return 1
+  spoil "$table" By "" 5 && costs "12 values in 13 columns" coupler_curve pin_motion point_rates && mv "$table.whole" "$table" || return 1
+  others="coupler_curve kinematics_accelerations kinematics_angles kinematics_velocities"
+  for name in 'A"||system("touch<run")||"' 'A`touch<run`' '../A' "A\\"; do
+    spoil "$scratch/spoiled/pins.dat" pin "$name" 1 && costs "pins.dat, line" $others point_rates && says ": pin is " || return 1
+  done
+  spoil "$scratch/spoiled/points.dat" vx NaN && costs "points.dat, line" $others && absent run "$scratch/spoiled/run" || return 1
+  for table in tests/golden/*/*.dat; do
+    awk -v want=wrong -f plots/quoted.awk -f plots/tables.awk <"$table" | grep . && { echo "in $table"; return 1; }
+  done
+  return 0
+}
+
 # slow_plot SIGNAL FOLDER...: sent a signal while gnuplot, which takes two seconds for nothing, is at work.
 slow_plot() {
   rm -f "$scratch/begun"
@@ -277,19 +319,19 @@ signals() {
 
 # Several runs at once, which take long to move their figures: the folder has all those of the one that ended last.
 at_once() {
-  { motion_deck && printf 'SPEED 2\nPOINT p coupler along=10\nREPORT points\nREPORT pins\n'; } >"$scratch/paths.deck"
+  rm -rf "$scratch/spoiled"
   mkdir -p "$scratch/moving"
   printf '#!/bin/sh\nsleep 0.2\nexec %s "$@"\n' "$(command -v mv)" >"$scratch/moving/mv"
   chmod +x "$scratch/moving/mv"
-  run 0 --quiet --out "$scratch" "$scratch/paths.deck" || return 1
+  run 0 --quiet --out "$scratch" "$scratch/spoiled.deck" || return 1
   for format in svg pdf png; do
-    PATH=$scratch/moving:$PATH sh plots/flexmech-plot --format $format "$scratch/paths" >"$scratch/drawn.$format" 2>&1 &
+    PATH=$scratch/moving:$PATH sh plots/flexmech-plot --format $format "$scratch/spoiled" >"$scratch/drawn.$format" 2>&1 &
   done
   wait
-  ls "$scratch/paths/figures" | grep -v -e drawn.txt -e gif >"$scratch/names"
-  [ "$(wc -l <"$scratch/names")" -eq 6 ] && sed '/^#/d; /gif/d' "$scratch/paths/figures/drawn.txt" | LC_ALL=C sort | cmp - "$scratch/names" &&
+  ls "$scratch/spoiled/figures" | grep -v -e drawn.txt -e gif >"$scratch/names"
+  [ "$(wc -l <"$scratch/names")" -eq 6 ] && sed '/^#/d; /gif/d' "$scratch/spoiled/figures/drawn.txt" | LC_ALL=C sort | cmp - "$scratch/names" &&
     sed '/gif/d; s/.*figures.//' "$scratch/drawn.$(sed '1s/.*\.//; 1q' "$scratch/names")" | LC_ALL=C sort | cmp - "$scratch/names" &&
-    absent "$scratch/paths/.figures."*
+    absent "$scratch/spoiled/.figures."*
 }
 
 # whole FIGURE SCRIPT ARGUMENT...: drawn as an SVG without a complaint, no word cut.
@@ -347,6 +389,7 @@ check "figures against a parameter" parameters
 check "figures with other terminals" other_terminals
 check "flexmech-plot: installed" installed
 check "what is typed at make is a text" typed_at_make
+check "tables with what is no number or no name" not_numbers
 check "flexmech-plot: signals" signals
 check "flexmech-plot: several runs at once" at_once
 check "figures of the stress test" stress_figures
