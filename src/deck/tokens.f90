@@ -5,8 +5,8 @@ module tokens
   implicit none (type, external)
   private
 
-  public :: token_t, split_words, token_part, list_items, token_texts, code_length, is_name, &
-    check_name
+  public :: token_t, is_before, earlier, later, split_words, token_part, list_items, token_texts, &
+    code_length, is_name, check_name
 
   !> A word and its place. In place of a `$name` it has the text of the value, the place of the
   !! `$name` and the place of the value.
@@ -25,6 +25,32 @@ module tokens
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.'"
 
 contains
+
+  !> Whether a word stands before another one; one without a place stands before all.
+  pure function is_before(word, other) result(is)
+    type(token_t), intent(in) :: word, other
+    logical :: is
+
+    is = word%line < other%line .or. (word%line == other%line .and. word%column < other%column)
+  end function is_before
+
+  !> The first of two words, or the only one that has a place.
+  pure function earlier(word, other) result(first)
+    type(token_t), intent(in) :: word, other
+    type(token_t) :: first
+
+    first = word
+    if (word%line == 0 .or. (other%line > 0 .and. is_before(other, word))) first = other
+  end function earlier
+
+  !> The last of two words, or the only one that has a place.
+  pure function later(word, other) result(last)
+    type(token_t), intent(in) :: word, other
+    type(token_t) :: last
+
+    last = word
+    if (is_before(word, other)) last = other
+  end function later
 
   !> Length of a line without its comment [bytes].
   pure function code_length(line) result(length)
@@ -93,28 +119,39 @@ contains
     integer, intent(in) :: first, last !! byte of its text
     type(token_t) :: part
 
-    part = word
-    part%text = word%text(first:last)
-    if (word%set_line > 0) then
-      part%set_column = word%set_column + character_count(word%text(:first - 1))
-    else if (word%set_line == 0) then
-      part%column = word%column + character_count(word%text(:first - 1))
-    end if
+    part = part_behind(word, character_count(word%text(:first - 1)), first, last)
   end function token_part
+
+  !> `token_part`, with the number of characters before it.
+  pure function part_behind(word, before, first, last) result(part)
+    type(token_t), intent(in) :: word
+    integer, intent(in) :: before, first, last
+    type(token_t) :: part
+
+    part = token_t(word%text(first:last), word%line, word%column, word%set_line, word%set_column)
+    if (word%set_line > 0) then
+      part%set_column = word%set_column + before
+    else if (word%set_line == 0) then
+      part%column = word%column + before
+    end if
+  end function part_behind
 
   !> The items of a list: one word with commas between the items.
   pure function list_items(word) result(items)
     type(token_t), intent(in) :: word !! a list, or a single item
     type(token_t), allocatable :: items(:)
 
-    integer :: i, first, length
+    integer :: i, first, last, before
 
     allocate (items(1 + count([(word%text(i:i) == ",", i=1, len(word%text))])))
     first = 1
+    before = 0
     do i = 1, size(items)
-      length = index(word%text(first:)//",", ",") - 1
-      items(i) = token_part(word, first, first + length - 1)
-      first = first + length + 1
+      last = len(word%text)
+      if (i < size(items)) last = first + index(word%text(first:), ",") - 2
+      items(i) = part_behind(word, before, first, last)
+      before = before + character_count(word%text(first:last)) + 1
+      first = last + 2
     end do
   end function list_items
 

@@ -2,7 +2,7 @@
 !! and clear error messages.
 module card_reader
   use card_table, only: card_kind_t, keys_of, kind_of_card
-  use cards, only: card_t
+  use cards, only: card_t, entry_t
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_input, error_of_writing, error_t, set_error
   use key_hints, only: key_hint
@@ -16,8 +16,8 @@ module card_reader
   implicit none (type, external)
   private
 
-  public :: check_form, check_words, unit_apart, has_key, entry_number, read_name, &
-    read_part_name, read_quantity, read_measure, require_positive, refuse_negative
+  public :: check_form, check_words, unit_apart, entry_of, key_of, value_of, has_key, has_value, &
+    read_name, read_part_name, read_quantity, read_measure, require_positive, refuse_negative
   public :: read_entry_quantity, read_entry_count, read_entry_accuracy, read_choice
 
   !> Words that stand where names of links, pins and guides may stand, and are no names themselves.
@@ -101,21 +101,60 @@ contains
     if (.not. allocated(error)) hint = " (a unit follows its number without a blank)"
   end function unit_apart
 
-  !> Number of the entry with the given key; 0 if the card has no such key or its value is missing.
-  pure function entry_number(card, key) result(number)
+  !> The first entry with a key. If the card has none, its words are empty and have no line; so is
+  !! a value that is missing.
+  pure function entry_of(card, key) result(entry)
     type(card_t), intent(in) :: card    !! of any kind
     character(len=*), intent(in) :: key !! in any case of letters
-    integer :: number
+    type(entry_t) :: entry
 
     integer :: i
 
-    number = 0
     do i = 1, size(card%entries)
       if (.not. same_word(card%entries(i)%key%text, key)) cycle
-      if (len(card%entries(i)%value%text) > 0) number = i
+      entry = card%entries(i)
+      if (len(entry%value%text) == 0) entry%value = token_t("")
       return
     end do
-  end function entry_number
+    entry%key = token_t("")
+    entry%value = token_t("")
+  end function entry_of
+
+  !> The word before the equals sign: `entry_of`.
+  pure function key_of(card, key) result(word)
+    type(card_t), intent(in) :: card    !! of any kind
+    character(len=*), intent(in) :: key !! in any case of letters
+    type(token_t) :: word
+
+    type(entry_t) :: entry
+
+    entry = entry_of(card, key)
+    word = entry%key
+  end function key_of
+
+  !> The word behind the equals sign: `entry_of`.
+  pure function value_of(card, key) result(word)
+    type(card_t), intent(in) :: card    !! of any kind
+    character(len=*), intent(in) :: key !! in any case of letters
+    type(token_t) :: word
+
+    type(entry_t) :: entry
+
+    entry = entry_of(card, key)
+    word = entry%value
+  end function value_of
+
+  !> Whether a card has a key and a value of it.
+  pure function has_value(card, key) result(has)
+    type(card_t), intent(in) :: card    !! of any kind
+    character(len=*), intent(in) :: key !! in any case of letters
+    logical :: has
+
+    type(token_t) :: word
+
+    word = value_of(card, key)
+    has = word%line > 0
+  end function has_value
 
   !> Checks that a word is a valid name.
   !!
@@ -287,13 +326,10 @@ contains
     real(wp), intent(out) :: value                    !! [SI]; 0 without a value
     logical, intent(out) :: fine                      !! whether a value was read
 
-    integer :: i
-
     value = 0.0_wp
     fine = .false.
-    i = entry_number(card, key)
-    if (i > 0) then
-      call read_quantity(card%entries(i)%value, dimension, system, diagnostics, value, fine)
+    if (has_value(card, key)) then
+      call read_quantity(value_of(card, key), dimension, system, diagnostics, value, fine)
     else if (required .and. .not. has_key(card, key)) then
       call add_error(diagnostics, card%keyword, "'"//key//"=' is missing; expected "// &
         dimension_name(dimension), kind=error_of_writing)
@@ -321,12 +357,11 @@ contains
     real(wp), intent(in) :: value                     !! of the key, in any unit
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
 
-    integer :: i
+    type(token_t) :: word
 
-    i = entry_number(card, key)
-    if (i == 0 .or. value > 0.0_wp) return
-    call add_error(diagnostics, card%entries(i)%value, &
-      "'"//key//"=' must be greater than 0, not "//card%entries(i)%value%text)
+    word = value_of(card, key)
+    if (word%line == 0 .or. value > 0.0_wp) return
+    call add_error(diagnostics, word, "'"//key//"=' must be greater than 0, not "//word%text)
   end subroutine require_positive
 
   !> Errors: a value is less than zero.
@@ -353,24 +388,22 @@ contains
                                                       !! right
 
     type(error_t), allocatable :: error
-    integer :: i
+    type(token_t) :: word
 
     value = least
     fine = .false.
-    i = entry_number(card, key)
-    if (i == 0) return
-    associate (word => card%entries(i)%value)
-      call read_integer(word%text, value, error)
-      if (allocated(error)) then
-        call add_error(diagnostics, word, error%text//"; expected a whole number from "// &
-          to_string(least)//" up")
-      else if (value < least) then
-        call add_error(diagnostics, word, "'"//key//"=' must be at least "//to_string(least)// &
-          ", not "//word%text)
-      else
-        fine = .true.
-      end if
-    end associate
+    word = value_of(card, key)
+    if (word%line == 0) return
+    call read_integer(word%text, value, error)
+    if (allocated(error)) then
+      call add_error(diagnostics, word, error%text//"; expected a whole number from "// &
+        to_string(least)//" up")
+    else if (value < least) then
+      call add_error(diagnostics, word, "'"//key//"=' must be at least "//to_string(least)// &
+        ", not "//word%text)
+    else
+      fine = .true.
+    end if
   end subroutine read_entry_count
 
   !> Reads `accuracy=`, a relative one.
@@ -386,25 +419,23 @@ contains
     logical, intent(out) :: fine                      !! whether the key exists and its value is
                                                       !! right
 
-    integer :: i
+    type(token_t) :: word
 
     accuracy = 0.0_wp
     fine = .false.
-    i = entry_number(card, "accuracy")
-    if (i == 0) return
-    associate (word => card%entries(i)%value)
-      call read_quantity(word, dimension_none, system, diagnostics, accuracy, fine)
-      if (.not. fine) return
-      fine = accuracy >= finest .and. accuracy <= coarsest
-      if (accuracy < finest) then
-        call add_error(diagnostics, word, "'accuracy=' must be at least "//to_string(finest)// &
-          ", not "//word%text//": double precision gives no more than "//to_string(finest))
-      else if (accuracy > coarsest) then
-        call add_error(diagnostics, word, "'accuracy=' must be at most "//to_string(coarsest)// &
-          ", not "//word%text)
-      end if
-      if (.not. fine) accuracy = 0.0_wp
-    end associate
+    word = value_of(card, "accuracy")
+    if (word%line == 0) return
+    call read_quantity(word, dimension_none, system, diagnostics, accuracy, fine)
+    if (.not. fine) return
+    fine = accuracy >= finest .and. accuracy <= coarsest
+    if (accuracy < finest) then
+      call add_error(diagnostics, word, "'accuracy=' must be at least "//to_string(finest)// &
+        ", not "//word%text//": double precision gives no more than "//to_string(finest))
+    else if (accuracy > coarsest) then
+      call add_error(diagnostics, word, "'accuracy=' must be at most "//to_string(coarsest)// &
+        ", not "//word%text)
+    end if
+    if (.not. fine) accuracy = 0.0_wp
   end subroutine read_entry_accuracy
 
   !> Reads a word that must be one of a few.

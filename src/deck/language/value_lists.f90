@@ -1,7 +1,7 @@
 !> Lists of numbers on cards: single numbers, ranges `a to b step s`, one unit for all.
 module value_lists
-  use card_reader, only: entry_number, read_measure, read_quantity
-  use cards, only: card_t
+  use card_reader, only: entry_of, has_value, read_measure, read_quantity
+  use cards, only: card_t, entry_t
   use constants, only: pi
   use decimals, only: decimal_of, decimal_point, decimal_t, decimal_value
   use diagnostics, only: add_error, diagnostics_t
@@ -67,7 +67,7 @@ contains
     logical :: fine
 
     list = empty_list()
-    if (entry_number(card, key) == 0) return
+    if (.not. has_value(card, key)) return
     call find_items(card, key, diagnostics, words, fine)
     if (fine) call read_values(words, dimension, system, key//" value", diagnostics, list)
   end subroutine read_entry_list
@@ -120,7 +120,7 @@ contains
 
     pair = 0.0_wp
     fine = .false.
-    if (entry_number(card, key) == 0) return
+    if (.not. has_value(card, key)) return
     call find_items(card, key, diagnostics, words, fine)
     if (.not. fine) return
     if (size(words) /= 2) then
@@ -143,22 +143,22 @@ contains
     type(token_t), allocatable, intent(out) :: words(:) !! (items) with their places
     logical, intent(out) :: fine                        !! whether no item is empty
 
+    type(entry_t) :: entry
     type(token_t), allocatable :: more(:)
     integer :: i
 
     fine = .true.
-    associate (entry => card%entries(entry_number(card, key)))
-      if (allocated(entry%items)) then
-        allocate (words(0))
-        do i = 1, size(entry%items)
-          ! A statement of its own: inside an array constructor gfortran 12 would leak its memory.
-          more = list_items(entry%items(i))
-          words = [words, more]
-        end do
-      else
-        words = list_items(entry%value)
-      end if
-    end associate
+    entry = entry_of(card, key)
+    if (allocated(entry%items)) then
+      allocate (words(0))
+      do i = 1, size(entry%items)
+        ! A statement of its own: inside an array constructor gfortran 12 would leak its memory.
+        more = list_items(entry%items(i))
+        words = [words, more]
+      end do
+    else
+      words = list_items(entry%value)
+    end if
     do i = 1, size(words)
       if (len(words(i)%text) > 0) cycle
       words(i)%text = ","

@@ -1,14 +1,14 @@
 !> BALANCE cards: counterweights that minimise what shakes and drives a linkage, and balance shafts.
 !! Names are looked up later, by `balance_checks`.
 module balance_cards
-  use card_reader, only: check_form, entry_number, has_key, read_choice, read_entry_count, &
-    read_entry_quantity, read_quantity, refuse_negative, require_positive
+  use card_reader, only: check_form, has_key, has_value, key_of, read_choice, read_entry_count, &
+    read_entry_quantity, read_quantity, refuse_negative, require_positive, value_of
   use card_table, only: card_kind_t, kind_of_card
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
   use text, only: joined, lower_case, same_word, to_string, word_list
-  use tokens, only: token_t
+  use tokens, only: later, token_t
   use units, only: dimension_density, dimension_inertia, dimension_length, dimension_none, &
     unit_system_t
   use value_lists, only: find_items
@@ -88,7 +88,7 @@ contains
     allocate (balance%links(0), balance%radius(0))
     call check_form(card, diagnostics, fine, known_keys)
     call read_aims(card, known_keys, system, diagnostics, balance)
-    if (entry_number(card, "radius") > 0) then
+    if (has_value(card, "radius")) then
       call find_items(card, "radius", diagnostics, words, fine)
       if (fine) balance%radius_word = words(1)
       do i = 1, merge(size(words), 0, fine)
@@ -117,7 +117,7 @@ contains
     logical :: fine, all_fine
 
     kind = kind_of_card(card%keyword%text)
-    if (entry_number(card, "minimise") == 0) then
+    if (.not. has_value(card, "minimise")) then
       if (known_keys .and. .not. has_key(card, "minimise")) call add_error(diagnostics, &
         card%keyword, "'minimise=' is missing; expected one or several of: "// &
         joined(word_list(trim(kind%choices)))//", with commas between them")
@@ -139,7 +139,7 @@ contains
       "moments of inertia alone, so that the direction of a counterweight does not follow from "// &
       "it; expected force or moment beside it")
     weights = 1.0_wp
-    if (entry_number(card, "weights") > 0) then
+    if (has_value(card, "weights")) then
       call find_items(card, "weights", diagnostics, words, fine)
       if (.not. fine) return
       if (size(words) /= size(aims)) then
@@ -176,7 +176,7 @@ contains
     type(token_t), allocatable :: words(:)
     real(wp) :: values(4)
     logical :: fine, known_keys
-    integer :: i, number
+    integer :: i
 
     shaft%keyword = card%keyword
     shaft%order_word = card%keyword
@@ -187,9 +187,8 @@ contains
         card%words(1), "unexpected '"//card%words(1)%text//"': 'order=' is of balance shafts; "// &
         "expected: "//trim(kind%pattern))
     end if
-    number = entry_number(card, "order")
-    if (number > 0) then
-      shaft%order_word = card%entries(number)%value
+    if (has_value(card, "order")) then
+      shaft%order_word = value_of(card, "order")
       call read_entry_count(card, "order", 1, diagnostics, shaft%order, fine)
       if (fine .and. shaft%order > highest_order) call add_error(diagnostics, shaft%order_word, &
         "'order=' must be at most "//to_string(highest_order)//", not "//shaft%order_word%text)
@@ -198,7 +197,7 @@ contains
       call add_error(diagnostics, card%keyword, "'order=' is missing; expected 1 for shafts at "// &
         "the speed of the crank, 2 for twice that speed")
     end if
-    if (entry_number(card, "at") > 0) then
+    if (has_value(card, "at")) then
       call find_items(card, "at", diagnostics, words, fine)
       if (.not. fine) return
       if (size(words) /= 2 .and. size(words) /= 4) then
@@ -228,12 +227,9 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(weight_make_t), intent(out) :: make
 
-    integer :: density, thickness, inertia, first
+    type(token_t) :: disc, last
     logical :: has_density, has_thickness, has_inertia
 
-    density = entry_number(card, "density")
-    thickness = entry_number(card, "thickness")
-    inertia = entry_number(card, "inertia")
     call read_entry_quantity(card, "density", dimension_density, system, .false., diagnostics, &
       make%density, has_density)
     if (has_density) call require_positive(card, "density", make%density, diagnostics)
@@ -242,20 +238,20 @@ contains
     if (has_thickness) call require_positive(card, "thickness", make%thickness, diagnostics)
     call read_entry_quantity(card, "inertia", dimension_inertia, system, .false., diagnostics, &
       make%inertia, has_inertia)
-    if (has_inertia) call refuse_negative(card%entries(inertia)%value, make%inertia, &
+    if (has_inertia) call refuse_negative(value_of(card, "inertia"), make%inertia, &
       "a moment of inertia", diagnostics)
-    first = max(density, thickness)
-    if (first > 0 .and. inertia > 0) then
-      call add_error(diagnostics, card%entries(max(first, inertia))%key, "the moment of "// &
-        "inertia of a counterweight is given by 'inertia=', or follows from the disc of "// &
-        "'density=' and 'thickness='; expected one of these")
-    else if ((density > 0) .neqv. (thickness > 0)) then
-      call add_error(diagnostics, card%entries(first)%key, "a disc has a density and a "// &
-        "thickness; expected '"//trim(merge("thickness", "density  ", density > 0))//"=' too")
-    else if (max(first, inertia) > 0 .and. .not. has_key(card, "radius")) then
-      call add_error(diagnostics, card%entries(max(first, inertia))%key, "a counterweight "// &
-        "with a moment of inertia of its own needs its distance from the pivot; expected "// &
-        "'radius=' too")
+    disc = later(key_of(card, "density"), key_of(card, "thickness"))
+    last = later(disc, key_of(card, "inertia"))
+    if (disc%line > 0 .and. has_key(card, "inertia")) then
+      call add_error(diagnostics, last, "the moment of inertia of a counterweight is given by "// &
+        "'inertia=', or follows from the disc of 'density=' and 'thickness='; expected one of "// &
+        "these")
+    else if (has_key(card, "density") .neqv. has_key(card, "thickness")) then
+      call add_error(diagnostics, disc, "a disc has a density and a thickness; expected '"// &
+        trim(merge("thickness", "density  ", has_key(card, "density")))//"=' too")
+    else if (last%line > 0 .and. .not. has_key(card, "radius")) then
+      call add_error(diagnostics, last, "a counterweight with a moment of inertia of its own "// &
+        "needs its distance from the pivot; expected 'radius=' too")
     end if
   end subroutine read_make
 

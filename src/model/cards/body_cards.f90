@@ -1,8 +1,8 @@
 !> MASS and POINT cards: masses and points fixed to links. Names are looked up later, by
 !! `body_checks`.
 module body_cards
-  use card_reader, only: check_form, entry_number, read_entry_quantity, read_part_name, &
-    read_quantity, refuse_negative
+  use card_reader, only: check_form, has_value, read_entry_quantity, read_part_name, &
+    read_quantity, refuse_negative, value_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
@@ -51,7 +51,7 @@ contains
     call read_place(card, "at", known_keys, system, diagnostics, mass%place, mass%place_word)
     call read_entry_quantity(card, "inertia", dimension_inertia, system, .false., diagnostics, &
       mass%inertia, has_inertia)
-    if (has_inertia) call refuse_negative(card%entries(entry_number(card, "inertia"))%value, &
+    if (has_inertia) call refuse_negative(value_of(card, "inertia"), &
       mass%inertia, "a moment of inertia", diagnostics)
     if (.not. fine) return
     call read_quantity(card%words(2), dimension_mass, system, diagnostics, mass%mass, fine)
@@ -96,7 +96,6 @@ contains
                                                       !! the link, and to its left [m]
     type(token_t), intent(out) :: word                !! value of `key`; the keyword without one
 
-    integer :: i
     logical :: fine
 
     word = card%keyword
@@ -104,8 +103,7 @@ contains
       place(1), fine)
     call read_entry_quantity(card, "offset", dimension_length, system, .false., diagnostics, &
       place(2), fine)
-    i = entry_number(card, key)
-    if (i > 0) word = card%entries(i)%value
+    if (has_value(card, key)) word = value_of(card, key)
   end subroutine read_place
 
 end module body_cards

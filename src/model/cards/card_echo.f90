@@ -1,6 +1,6 @@
 !> Cards written back in a uniform layout, with the user's own words, for `echo.deck`.
 module card_echo
-  use card_reader, only: entry_number
+  use card_reader, only: has_value
   use card_table, only: card_kind_t, kind_of_card
   use cards, only: card_t
   use deck_source, only: line_origin, source_t
@@ -87,7 +87,7 @@ contains
     else if (.not. same_word(card%keyword%text, "REPORT")) then
       kind = kind_of_card(card%keyword%text)
       ! With `accuracy=` the program chooses the order: no default to write.
-      if (entry_number(card, "accuracy") == 0) call complete(card, trim(kind%entry), line)
+      if (.not. has_value(card, "accuracy")) call complete(card, trim(kind%entry), line)
     else
       number = kind_named(reports, lower_case(card%words(1)%text))
       call complete(card, trim(reports(number)%default), line)
@@ -156,7 +156,7 @@ contains
     do while (first <= len(entries))
       next = first + index(entries(first:)//" ", " ")
       associate (entry => entries(first:next - 2))
-        if (entry_number(card, entry(:index(entry, "=") - 1)) == 0) call append_default(line, entry)
+        if (.not. has_value(card, entry(:index(entry, "=") - 1))) call append_default(line, entry)
       end associate
       first = next
     end do

@@ -1,8 +1,8 @@
 !> DRIVE and BRANCH cards: what is given at a position, and in which of its assemblies the linkage
 !! is. Names are looked up later, by `drive_checks`.
 module drive_cards
-  use card_reader, only: check_form, entry_number, has_key, read_choice, read_entry_quantity, &
-    read_measure, read_quantity
+  use card_reader, only: check_form, has_key, has_value, key_of, read_choice, read_entry_quantity, &
+    read_measure, read_quantity, value_of
   use card_table, only: pattern_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
@@ -107,7 +107,6 @@ contains
 
     type(token_t) :: nowhere
     logical :: fine, known_keys
-    integer :: i
 
     nowhere = token_t("", 0, 0)
     drive%keyword = card%keyword
@@ -127,9 +126,8 @@ contains
       if (known_keys) call read_law_word(card, diagnostics, drive)
       return
     end if
-    i = entry_number(card, "law")
-    if (i > 0) then
-      call add_error(diagnostics, card%entries(i)%key, "'law=' is for the first DRIVE, and "// &
+    if (has_value(card, "law")) then
+      call add_error(diagnostics, key_of(card, "law"), "'law=' is for the first DRIVE, and "// &
         "this one goes with it by 'ratio=' or stands 'at='", first%keyword, "the first is here")
       return
     end if
@@ -203,12 +201,11 @@ contains
 
     dimension = merge(dimension_length, dimension_angle, moves_along(drive%kind))
     call read_entry_quantity(card, "at", dimension, system, .false., diagnostics, drive%at, fine)
-    if (fine) drive%at_word = card%entries(entry_number(card, "at"))%value
+    if (fine) drive%at_word = value_of(card, "at")
     call read_entry_quantity(card, "phase", dimension, system, .false., diagnostics, drive%phase, &
       fine)
-    i = entry_number(card, "ratio")
-    if (i > 0) then
-      call read_ratio(card%entries(i)%value, moves_along(drive%kind), moves_along(first_kind), &
+    if (has_value(card, "ratio")) then
+      call read_ratio(value_of(card, "ratio"), moves_along(drive%kind), moves_along(first_kind), &
         system, diagnostics, drive)
     end if
     do i = 1, size(card%entries)

@@ -1,8 +1,8 @@
 !> FRICTION cards: what rubs at a pin, or a block along its guide. Names are looked up later, by
 !! `friction_checks`.
 module friction_cards
-  use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, refuse_negative, &
-    require_positive
+  use card_reader, only: check_form, has_key, key_of, read_entry_quantity, refuse_negative, &
+    require_positive, value_of
   use card_table, only: pattern_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
@@ -97,7 +97,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     character(len=*), intent(in) :: words !! of what it is
 
-    if (has_key(card, key)) call add_error(diagnostics, card%entries(entry_number(card, key))%key, &
+    if (has_key(card, key)) call add_error(diagnostics, key_of(card, key), &
       "'"//key//"=' is "//words)
   end subroutine refuse_key
 
@@ -112,8 +112,7 @@ contains
     logical :: fine
 
     call read_entry_quantity(card, key, dimension, system, .false., diagnostics, value, fine)
-    if (fine) call refuse_negative(card%entries(entry_number(card, key))%value, value, key, &
-      diagnostics)
+    if (fine) call refuse_negative(value_of(card, key), value, key, diagnostics)
     if (.not. fine) value = 0.0_wp
   end subroutine read_value
 

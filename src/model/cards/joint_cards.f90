@@ -1,8 +1,8 @@
 !> PIN, WELD, GUIDE and SLIDER cards: the drawing of a linkage, links that turn together, what pins
 !! slide along. Names are looked up later, by `joint_checks`.
 module joint_cards
-  use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, read_measure, &
-    read_part_name, read_quantity, refuse_negative
+  use card_reader, only: check_form, has_key, has_value, read_entry_quantity, read_measure, &
+    read_part_name, read_quantity, refuse_negative, value_of
   use cards, only: card_t
   use constants, only: pi
   use diagnostics, only: add_error, diagnostics_t
@@ -101,7 +101,6 @@ contains
 
     type(unit_t) :: measure
     real(wp) :: value
-    integer :: i
     logical :: fine, known_keys, read
 
     guide%name = token_t("", 0, 0)
@@ -110,9 +109,8 @@ contains
       guide%name = card%words(1)
       call read_part_name(guide%name, diagnostics)
     end if
-    i = entry_number(card, "angle")
-    if (i > 0) then
-      call read_measure(card%entries(i)%value, dimension_angle, coherent_unit(system, &
+    if (has_value(card, "angle")) then
+      call read_measure(value_of(card, "angle"), dimension_angle, coherent_unit(system, &
         dimension_angle), diagnostics, value, measure, read)
       if (read) then
         guide%angle = to_si(value, measure)
@@ -150,12 +148,11 @@ contains
     if (size(card%words) > 2) slider%turned = card%words(3)
     call read_entry_quantity(card, "mass", dimension_mass, system, .false., diagnostics, &
       slider%mass, fine)
-    if (fine) call refuse_negative(card%entries(entry_number(card, "mass"))%value, slider%mass, &
-      "a mass", diagnostics)
+    if (fine) call refuse_negative(value_of(card, "mass"), slider%mass, "a mass", diagnostics)
     call read_entry_quantity(card, "inertia", dimension_inertia, system, .false., diagnostics, &
       slider%inertia, fine)
     if (.not. fine) return
-    slider%inertia_word = card%entries(entry_number(card, "inertia"))%value
+    slider%inertia_word = value_of(card, "inertia")
     call refuse_negative(slider%inertia_word, slider%inertia, "a moment of inertia", diagnostics)
   end subroutine read_slider
 

@@ -1,8 +1,8 @@
 !> LAW cards: how the first drive moves in time; and the TIME card. What a law as a whole is, and
 !! whether it is one, `law_checks` finds.
 module law_cards
-  use card_reader, only: check_form, entry_number, has_key, read_choice, read_entry_quantity, &
-    read_measure, read_name
+  use card_reader, only: check_form, has_key, has_value, read_choice, read_entry_quantity, &
+    read_measure, read_name, value_of
   use card_table, only: pattern_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
@@ -86,15 +86,13 @@ contains
       call add_error(diagnostics, card%keyword, "'"//trim(others(i))// &
         "=' has no meaning beside 'table='")
     end do
-    i = entry_number(card, "ends")
-    if (i > 0) then
-      call read_choice(card%entries(i)%value, ends_words, diagnostics, choice)
+    if (has_value(card, "ends")) then
+      call read_choice(value_of(card, "ends"), ends_words, diagnostics, choice)
       if (choice > 0) law%ends = choice
     end if
-    i = entry_number(card, "table")
-    if (i == 0) return
+    if (.not. has_value(card, "table")) return
     law%name = card%words(1)
-    law%table_word = card%entries(i)%value
+    law%table_word = value_of(card, "table")
   end subroutine read_table_of_law
 
   !> Reads `kind to= start= stop= [from=]`.
@@ -126,8 +124,8 @@ contains
       fine(4))
     if (law%law == 0 .or. .not. all(fine([1, 3, 4]))) return
     law%name = card%words(1)
-    law%start_word = card%entries(entry_number(card, "start"))%value
-    law%stop_word = card%entries(entry_number(card, "stop"))%value
+    law%start_word = value_of(card, "start")
+    law%stop_word = value_of(card, "stop")
     if (law%stop > law%start) return
     call add_error(diagnostics, law%stop_word, "a segment stops after it starts", law%start_word, &
       "it starts here")
@@ -148,18 +146,17 @@ contains
 
     type(unit_t) :: measure
     real(wp) :: number
-    integer :: dimension(4), i
+    integer :: dimension(4)
 
     value = 0.0_wp
     fine = .false.
     dimension = merge(dimension_length, dimension_angle, by_length)
-    i = entry_number(card, key)
-    if (i == 0) then
+    if (.not. has_value(card, key)) then
       if (required .and. .not. has_key(card, key)) call add_error(diagnostics, card%keyword, &
         "'"//key//"=' is missing; expected the position at the end of this segment")
       return
     end if
-    word = card%entries(i)%value
+    word = value_of(card, key)
     call read_measure(word, dimension, coherent_unit(system, dimension), diagnostics, number, &
       measure, fine)
     if (fine) value = model_value(number, measure, dimension)

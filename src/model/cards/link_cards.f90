@@ -1,7 +1,7 @@
 !> LINK card: a beam with a material and a section, or a rigid body of any shape.
 module link_cards
-  use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, read_part_name, &
-    read_quantity, refuse_negative, require_positive, unit_apart
+  use card_reader, only: check_form, has_key, has_value, key_of, read_entry_quantity, &
+    read_part_name, read_quantity, refuse_negative, require_positive, unit_apart, value_of
   use card_table, only: pattern_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t, error_count
@@ -9,7 +9,7 @@ module link_cards
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: suggestion
   use text, only: plural, same_word, to_string, word_list
-  use tokens, only: token_t, token_texts
+  use tokens, only: is_before, token_t, token_texts
   use units, only: dimension_angle, dimension_inertia, dimension_length, dimension_mass, &
     unit_system_t
   use value_lists, only: find_items, read_entry_pair
@@ -92,10 +92,8 @@ contains
     call read_length(card, system, diagnostics, link)
     call read_lengths(card, system, diagnostics, link)
     call read_turns(card, system, diagnostics, link)
-    if (entry_number(card, "material") > 0) link%material_name = card%entries(entry_number(card, &
-      "material"))%value
-    if (entry_number(card, "section") > 0) link%section_name = card%entries(entry_number(card, &
-      "section"))%value
+    if (has_value(card, "material")) link%material_name = value_of(card, "material")
+    if (has_value(card, "section")) link%section_name = value_of(card, "section")
     call read_body(card, system, diagnostics, link)
   end subroutine read_link
 
@@ -149,10 +147,7 @@ contains
     logical :: is
 
     is = .false.
-    if (size(card%entries) == 0) return
-    associate (key => card%entries(1)%key)
-      is = word%line > key%line .or. (word%line == key%line .and. word%column > key%column)
-    end associate
+    if (size(card%entries) > 0) is = is_before(card%entries(1)%key, word)
   end function is_behind_key
 
   !> Takes words as pins. Errors: a pin twice, but for the first one as the last of a closed link.
@@ -213,13 +208,13 @@ contains
       link%length, fine)
     if (.not. fine) return
     call require_positive(card, "length", link%length, diagnostics)
-    link%length_word = card%entries(entry_number(card, "length"))%value
+    link%length_word = value_of(card, "length")
     if (size(link%pins) > 2) then
       call add_error(diagnostics, link%length_word, "'length=' is for two pins, and link '"// &
         link%name%text//"' has "//to_string(size(link%pins))//"; expected 'lengths=' and "// &
         "'turns=', or PIN cards")
     else if (link%has_lengths) then
-      call add_error(diagnostics, card%entries(entry_number(card, "length"))%key, &
+      call add_error(diagnostics, key_of(card, "length"), &
         "'length=' has no meaning beside 'lengths='")
     end if
   end subroutine read_length
@@ -244,12 +239,12 @@ contains
         words(i)%text)
       return
     end do
-    link%length_word = card%entries(entry_number(card, "lengths"))%value
+    link%length_word = value_of(card, "lengths")
     if (size(link%pins) == 0) return
     if (size(link%pins) == 2) then
       ! Beside 'length=' that has been said.
-      if (.not. has_key(card, "length")) call add_error(diagnostics, card%entries(entry_number( &
-        card, "lengths"))%key, "link '"//link%name%text//"' has two pins: expected 'length='")
+      if (.not. has_key(card, "length")) call add_error(diagnostics, key_of(card, "lengths"), &
+        "link '"//link%name%text//"' has two pins: expected 'length='")
     else if (size(words) /= segment_count(link)) then
       call add_error(diagnostics, words(min(size(words), segment_count(link) + 1)), &
         "link '"//link%name%text//"' has "//to_string(segment_count(link))//" segments from "// &
@@ -275,11 +270,11 @@ contains
 
     call read_list(card, "turns", dimension_angle, system, diagnostics, words, turns, fine)
     if (.not. fine) return
-    link%turns_word = card%entries(entry_number(card, "turns"))%value
+    link%turns_word = value_of(card, "turns")
     if (size(link%pins) == 0) return
     expected = segment_count(link) - 1
     if (size(link%pins) == 2 .or. .not. link%has_lengths) then
-      call add_error(diagnostics, card%entries(entry_number(card, "turns"))%key, &
+      call add_error(diagnostics, key_of(card, "turns"), &
         "'turns=' stands beside 'lengths=' of a link with three pins or more")
     else if (size(words) /= expected .and. .not. (link%is_closed .and. size(words) == expected - &
       1)) then
@@ -305,7 +300,7 @@ contains
     integer :: i
     logical :: is_right
 
-    fine = entry_number(card, key) > 0
+    fine = has_value(card, key)
     if (.not. fine) return
     call find_items(card, key, diagnostics, words, fine)
     if (.not. fine) return
@@ -332,12 +327,11 @@ contains
     link%has_center = has_key(card, "center")
     call read_entry_quantity(card, "mass", dimension_mass, system, .false., diagnostics, &
       link%mass, fine)
-    if (fine) call refuse_negative(card%entries(entry_number(card, "mass"))%value, link%mass, &
-      "a mass", diagnostics)
+    if (fine) call refuse_negative(value_of(card, "mass"), link%mass, "a mass", diagnostics)
     call read_entry_quantity(card, "inertia", dimension_inertia, system, .false., diagnostics, &
       link%inertia, fine)
     if (fine) then
-      call refuse_negative(card%entries(entry_number(card, "inertia"))%value, link%inertia, &
+      call refuse_negative(value_of(card, "inertia"), link%inertia, &
         "a moment of inertia", diagnostics)
     end if
     call read_entry_pair(card, "center", "along,offset", dimension_length, system, diagnostics, &

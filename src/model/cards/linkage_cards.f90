@@ -1,8 +1,8 @@
 !> GROUND, PINMASS and MESH cards: fixed pivots, masses at pins, division of links into elements.
 !! Names are looked up later, by `name_checks`.
 module linkage_cards
-  use card_reader, only: check_form, entry_number, has_key, read_entry_accuracy, read_entry_count, &
-    read_part_name, read_quantity, refuse_negative
+  use card_reader, only: check_form, has_key, read_entry_accuracy, read_entry_count, &
+    read_part_name, read_quantity, refuse_negative, value_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: fineness, wp
@@ -134,7 +134,7 @@ contains
     call read_entry_count(card, "elements", 1, diagnostics, elements, counted)
     call read_entry_count(card, "order", cubic_order, diagnostics, order, ordered)
     if (ordered .and. order > highest_order) then
-      call add_error(diagnostics, card%entries(entry_number(card, "order"))%value, &
+      call add_error(diagnostics, value_of(card, "order"), &
         "'order=' must be at most "//to_string(highest_order)//", not "//to_string(order))
     else if (ordered) then
       mesh%order = order
@@ -145,10 +145,10 @@ contains
     if (elements <= most) then
       mesh%elements = elements
     else if (mesh%order == cubic_order) then
-      call add_error(diagnostics, card%entries(entry_number(card, "elements"))%value, &
+      call add_error(diagnostics, value_of(card, "elements"), &
         "'elements=' must be at most "//to_string(most))
     else
-      call add_error(diagnostics, card%entries(entry_number(card, "elements"))%value, &
+      call add_error(diagnostics, value_of(card, "elements"), &
         "'elements=' must be at most "//to_string(most)//" of order "//to_string(mesh%order))
     end if
   end subroutine read_elements
@@ -176,7 +176,7 @@ contains
       accuracy, fine)
     if (.not. fine) return
     mesh%accuracy = accuracy
-    mesh%accuracy_word = card%entries(entry_number(card, "accuracy"))%value
+    mesh%accuracy_word = value_of(card, "accuracy")
     mesh%elements = 1
   end subroutine read_accuracy
 

@@ -1,7 +1,7 @@
 !> MATERIAL card: the material of a link.
 module materials
-  use card_reader, only: check_form, entry_number, has_key, read_entry_quantity, read_name, &
-    refuse_negative, require_positive
+  use card_reader, only: check_form, has_key, read_entry_quantity, read_name, refuse_negative, &
+    require_positive, value_of
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use kinds, only: wp
@@ -44,6 +44,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
     type(material_t), intent(out) :: material         !! as read
 
+    type(token_t) :: word
     logical :: fine, known_keys, is_whole, has_modulus, has_density
 
     call check_form(card, diagnostics, fine, known_keys)
@@ -59,15 +60,14 @@ contains
     call read_entry_quantity(card, "density", dimension_density, system, known_keys, diagnostics, &
       material%density, has_density)
     material%is_massless = has_density .and. abs(material%density) <= 0.0_wp
-    if (has_density) call refuse_negative(card%entries(entry_number(card, "density"))%value, &
+    if (has_density) call refuse_negative(value_of(card, "density"), &
       material%density, "'density='", diagnostics)
     call read_entry_quantity(card, "nu", dimension_none, system, .false., diagnostics, &
       material%poissons_ratio, fine)
     material%has_ratio = has_key(card, "nu")
     if (fine .and. (material%poissons_ratio <= -1.0_wp .or. material%poissons_ratio > 0.5_wp)) then
-      call add_error(diagnostics, card%entries(entry_number(card, "nu"))%value, &
-        "'nu=' must be above -1 and at most 0.5, not "// &
-        card%entries(entry_number(card, "nu"))%value%text)
+      word = value_of(card, "nu")
+      call add_error(diagnostics, word, "'nu=' must be above -1 and at most 0.5, not "//word%text)
     end if
 
     ! A unit after a blank is refused, and its number has the wrong one.

@@ -1,14 +1,14 @@
 !> MOTOR card: the driving torque of forward dynamics (REPORT motion), and the gear of the motor. A
 !! table of torques over speeds is read later, by `motor_checks`.
 module motor_cards
-  use card_reader, only: check_form, entry_number, has_key, read_entry_count, &
-    read_entry_quantity, refuse_negative, require_positive
+  use card_reader, only: check_form, has_key, has_value, key_of, read_entry_count, &
+    read_entry_quantity, refuse_negative, require_positive, value_of
   use card_table, only: pattern_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
   use text, only: same_word
-  use tokens, only: token_t
+  use tokens, only: earlier, token_t
   use units, only: dimension_inertia, dimension_moment, dimension_none, dimension_rate, &
     unit_system_t
   implicit none (type, external)
@@ -85,9 +85,9 @@ contains
     if (stalls) call refuse_zero(card, "stall", motor%stall, diagnostics)
     if (runs) call refuse_zero(card, "noload", motor%noload, diagnostics)
     if (.not. (stalls .and. runs) .or. motor%stall*motor%noload >= 0.0_wp) return
-    call add_error(diagnostics, card%entries(entry_number(card, "noload"))%value, &
+    call add_error(diagnostics, value_of(card, "noload"), &
       "'stall=' and 'noload=' must have the same sign: a motor turns in the sense of its torque", &
-      card%entries(entry_number(card, "stall"))%value, "'stall=' is given here")
+      value_of(card, "stall"), "'stall=' is given here")
   end subroutine read_motor
 
   !> No motor.
@@ -107,14 +107,11 @@ contains
     type(motor_t), intent(inout) :: motor
 
     logical :: fine
-    integer :: i
 
-    i = entry_number(card, "table")
-    if (i > 0) motor%table_word = card%entries(i)%value
-    i = entry_number(card, "line")
-    if (i == 0) return
-    motor%line_word = card%entries(i)%value
-    if (.not. has_key(card, "table")) call add_error(diagnostics, card%entries(i)%key, &
+    motor%table_word = value_of(card, "table")
+    if (.not. has_value(card, "line")) return
+    motor%line_word = value_of(card, "line")
+    if (.not. has_key(card, "table")) call add_error(diagnostics, key_of(card, "line"), &
       "'line=' says which line of a table holds, and 'table=' is missing")
     call read_entry_count(card, "line", 1, diagnostics, motor%line, fine)
   end subroutine read_table_word
@@ -126,6 +123,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(motor_t), intent(inout) :: motor
 
+    type(token_t) :: word
     real(wp) :: value
     logical :: fine
 
@@ -135,41 +133,28 @@ contains
     if (fine) motor%ratio = value
     call read_entry_quantity(card, "rotor", dimension_inertia, system, .false., diagnostics, &
       motor%rotor, fine)
-    if (fine) call refuse_negative(card%entries(entry_number(card, "rotor"))%value, motor%rotor, &
+    if (fine) call refuse_negative(value_of(card, "rotor"), motor%rotor, &
       "a moment of inertia", diagnostics)
     call read_entry_quantity(card, "efficiency", dimension_none, system, .false., diagnostics, &
       value, fine)
     if (fine) then
-      associate (word => card%entries(entry_number(card, "efficiency"))%value)
-        if (value > 0.0_wp .and. value <= 1.0_wp) then
-          motor%efficiency = value
-        else
-          call add_error(diagnostics, word, "the efficiency of a gear is above 0 and at most "// &
-            "1, not "//word%text)
-        end if
-      end associate
+      word = value_of(card, "efficiency")
+      if (value > 0.0_wp .and. value <= 1.0_wp) then
+        motor%efficiency = value
+      else
+        call add_error(diagnostics, word, "the efficiency of a gear is above 0 and at most 1, "// &
+          "not "//word%text)
+      end if
     end if
     if (.not. has_key(card, "smooth")) return
     if (.not. has_key(card, "efficiency")) call add_error(diagnostics, &
-      card%entries(key_number(card, "smooth"))%key, &
-      "'smooth=' belongs to 'efficiency=', which is missing")
+      key_of(card, "smooth"), "'smooth=' belongs to 'efficiency=', which is missing")
     call read_entry_quantity(card, "smooth", dimension_rate, system, .false., diagnostics, value, &
       fine)
     if (.not. fine) return
     call require_positive(card, "smooth", value, diagnostics)
     if (value > 0.0_wp) motor%smooth = value
   end subroutine read_gear
-
-  !> Number of the entry of a key that the card has, with or without a value.
-  pure function key_number(card, key) result(number)
-    type(card_t), intent(in) :: card
-    character(len=*), intent(in) :: key
-    integer :: number
-
-    do number = 1, size(card%entries)
-      if (same_word(card%entries(number)%key%text, key)) return
-    end do
-  end function key_number
 
   pure subroutine refuse_zero(card, key, value, diagnostics)
     type(card_t), intent(in) :: card
@@ -178,8 +163,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
 
     if (abs(value) > 0.0_wp) return
-    call add_error(diagnostics, card%entries(entry_number(card, key))%value, &
-      "'"//key//"=' must not be 0")
+    call add_error(diagnostics, value_of(card, key), "'"//key//"=' must not be 0")
   end subroutine refuse_zero
 
   !> Reports a motor with two of a constant torque, one that falls with speed, and a table.
@@ -187,29 +171,19 @@ contains
     type(card_t), intent(in) :: card
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    integer :: i, constant, line, table
+    type(token_t) :: constant, line, table, other
 
-    constant = 0
-    line = 0
-    table = 0
-    do i = size(card%entries), 1, -1
-      associate (key => card%entries(i)%key%text)
-        if (same_word(key, "torque")) constant = i
-        if (same_word(key, "stall") .or. same_word(key, "noload")) line = i
-        if (same_word(key, "table")) table = i
-      end associate
-    end do
-    if (table > 0) then
-      i = max(constant, line)
-      if (constant > 0 .and. line > 0) i = min(constant, line)
-      call add_error(diagnostics, card%entries(i)%key, "the torque of this motor is that of "// &
-        "its table: '"//card%entries(i)%key%text//"=' has no meaning beside it", &
-        card%entries(table)%key, "'table=' is given here")
+    constant = key_of(card, "torque")
+    line = earlier(key_of(card, "stall"), key_of(card, "noload"))
+    table = key_of(card, "table")
+    if (table%line > 0) then
+      other = earlier(constant, line)
+      call add_error(diagnostics, other, "the torque of this motor is that of its table: '"// &
+        other%text//"=' has no meaning beside it", table, "'table=' is given here")
       return
     end if
-    call add_error(diagnostics, card%entries(line)%key, &
-      "a motor has a constant torque, 'torque=', or one that falls with its "// &
-      "speed, 'stall= noload=', not both", card%entries(constant)%key, "'torque=' is given here")
+    call add_error(diagnostics, line, "a motor has a constant torque, 'torque=', or one that "// &
+      "falls with its speed, 'stall= noload=', not both", constant, "'torque=' is given here")
   end subroutine refuse_mixture
 
 end module motor_cards

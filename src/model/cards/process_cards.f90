@@ -3,8 +3,8 @@
 !! by `process_checks`; constant forces on pins and constant torques are in `load_cards`.
 module process_cards
   use body_cards, only: read_place
-  use card_reader, only: check_form, entry_number, has_key, read_choice, read_entry_quantity, &
-    read_measure, read_quantity, refuse_negative, require_positive
+  use card_reader, only: check_form, has_key, has_value, key_of, read_choice, read_entry_quantity, &
+    read_measure, read_quantity, refuse_negative, require_positive, value_of
   use card_table, only: pattern_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
@@ -90,16 +90,15 @@ contains
       call read_place(card, "at", known_keys, system, diagnostics, process%place, &
         process%place_word)
     else if (has_key(card, "offset")) then
-      call add_error(diagnostics, card%entries(entry_number(card, "offset"))%key, &
+      call add_error(diagnostics, key_of(card, "offset"), &
         "'offset=' belongs to a place on a link, and 'at=' is missing")
     end if
-    i = entry_number(card, "axes")
-    if (i > 0) then
-      call read_choice(card%entries(i)%value, "global link", diagnostics, choice)
+    if (has_value(card, "axes")) then
+      process%axes_word = value_of(card, "axes")
+      call read_choice(process%axes_word, "global link", diagnostics, choice)
       process%in_link_axes = choice == 2
-      process%axes_word = card%entries(i)%value
       if (process%in_link_axes .and. .not. process%on_link) call add_error(diagnostics, &
-        card%entries(i)%value, "a force at a pin is in global axes; in those of a link it acts "// &
+        process%axes_word, "a force at a pin is in global axes; in those of a link it acts "// &
         "at a place of this link; expected: "//pattern_of("FORCE"))
     end if
     call read_course(card, dimension_velocity, system, diagnostics, process)
@@ -175,8 +174,7 @@ contains
     call read_not_negative(card, "resisting", merge(dimension_moment, dimension_force, &
       process%on_link), system, diagnostics, process%resisting)
     if (has_key(card, "smooth") .and. .not. has_key(card, "resisting")) call add_error( &
-      diagnostics, card%entries(entry_number(card, "smooth"))%key, &
-      "'smooth=' belongs to 'resisting=', which is missing")
+      diagnostics, key_of(card, "smooth"), "'smooth=' belongs to 'resisting=', which is missing")
     call read_smooth(card, merge(dimension_rate, dimension_velocity, process%on_link), system, &
       diagnostics, process)
   end subroutine read_resistance
@@ -205,22 +203,19 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(process_card_t), intent(inout) :: process
 
-    integer :: i, choice
+    integer :: choice
 
-    i = entry_number(card, "table")
-    if (i > 0) process%table_word = card%entries(i)%value
-    i = entry_number(card, "over")
-    if (i > 0) then
-      process%over_word = card%entries(i)%value
-      if (process%table_word%line == 0) call add_error(diagnostics, card%entries(i)%key, &
+    process%table_word = value_of(card, "table")
+    if (has_value(card, "over")) then
+      process%over_word = value_of(card, "over")
+      if (process%table_word%line == 0) call add_error(diagnostics, key_of(card, "over"), &
         "'over=' says what a table is over, and 'table=' is missing")
     end if
-    i = entry_number(card, "during")
-    if (i > 0) then
-      call read_choice(card%entries(i)%value, "with against", diagnostics, choice)
+    if (has_value(card, "during")) then
+      call read_choice(value_of(card, "during"), "with against", diagnostics, choice)
       if (choice > 0) process%during = merge(1, -1, choice == 1)
     else if (has_key(card, "smooth")) then
-      call add_error(diagnostics, card%entries(entry_number(card, "smooth"))%key, &
+      call add_error(diagnostics, key_of(card, "smooth"), &
         "'smooth=' belongs to 'during=', which is missing")
     end if
     call read_smooth(card, dimension, system, diagnostics, process)
@@ -255,8 +250,7 @@ contains
     logical :: fine
 
     call read_entry_quantity(card, key, dimension, system, .false., diagnostics, value, fine)
-    if (fine) call refuse_negative(card%entries(entry_number(card, key))%value, value, key, &
-      diagnostics)
+    if (fine) call refuse_negative(value_of(card, key), value, key, diagnostics)
   end subroutine read_not_negative
 
 end module process_cards

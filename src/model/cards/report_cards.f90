@@ -1,9 +1,9 @@
 !> REPORT card: requests one or several tables.
 module report_cards
-  use card_reader, only: check_words, entry_number, has_key, read_choice, read_entry_accuracy, &
-    read_entry_count, read_entry_quantity, read_quantity, require_positive
+  use card_reader, only: check_words, has_key, has_value, read_choice, read_entry_accuracy, &
+    read_entry_count, read_entry_quantity, read_quantity, require_positive, value_of
   use card_table, only: keys_in
-  use cards, only: card_t, entry_t
+  use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: fineness, wp
   use report_kinds, only: default_number, kind_named, report_kind_t, report_names
@@ -137,7 +137,7 @@ contains
       call read_summary(card, known_keys, diagnostics, report%summary)
       call read_response(card, system, diagnostics, report)
     end select
-    if (report%kind%name /= "motion" .and. entry_number(card, "columns") > 0) &
+    if (report%kind%name /= "motion" .and. has_value(card, "columns")) &
       call read_chosen_columns(card, diagnostics, report)
   end subroutine read_report
 
@@ -166,18 +166,18 @@ contains
     type(report_t), intent(inout) :: report
 
     real(wp), parameter :: least = 1.0e-6_wp, most = 1.0_wp
+    type(token_t) :: word
     real(wp) :: growth
     logical :: fine
-    integer :: i
 
     report%least_growth = default_number(report%kind, "growth")
     call read_entry_quantity(card, "growth", dimension_none, system, .false., diagnostics, growth, &
       fine)
     if (.not. fine) return
-    i = entry_number(card, "growth")
     if (growth < least .or. growth > most) then
-      call add_error(diagnostics, card%entries(i)%value, "the growth in a turn from which "// &
-        "intervals count is from 1e-6 to 1, not "//card%entries(i)%value%text)
+      word = value_of(card, "growth")
+      call add_error(diagnostics, word, "the growth in a turn from which intervals count is "// &
+        "from 1e-6 to 1, not "//word%text)
     else
       report%least_growth = growth
     end if
@@ -193,11 +193,10 @@ contains
     type(token_t) :: word
     real(wp) :: fluctuation, factor
     logical :: fine
-    integer :: i, last
+    integer :: last
 
-    i = entry_number(card, "fluctuation")
-    if (i == 0) return
-    word = card%entries(i)%value
+    if (.not. has_value(card, "fluctuation")) return
+    word = value_of(card, "fluctuation")
     last = len(word%text)
     factor = 1.0_wp
     if (last > 1) then
@@ -210,8 +209,9 @@ contains
     if (.not. fine) return
     fluctuation = fluctuation/factor
     if (fluctuation < least_fluctuation .or. fluctuation > most_fluctuation) then
-      call add_error(diagnostics, card%entries(i)%value, "the fluctuation of the speed, "// &
-        "(greatest - least)/mean, is from 1e-6 to 1, or in %, not "//card%entries(i)%value%text)
+      word = value_of(card, "fluctuation")
+      call add_error(diagnostics, word, "the fluctuation of the speed, (greatest - least)/mean,"// &
+        " is from 1e-6 to 1, or in %, not "//word%text)
     else
       report%fluctuation = fluctuation
     end if
@@ -224,25 +224,17 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(report_t), intent(inout) :: report
 
-    integer :: i
+    type(token_t) :: word
 
-    i = entry_number(card, "about")
-    if (i == 0) return
-    if (is_name(card%entries(i))) then
-      report%about_pin = card%entries(i)%value
+    word = value_of(card, "about")
+    if (word%line == 0) return
+    if (index(word%text, ",") == 0) then
+      report%about_pin = word
     else
       call read_entry_pair(card, "about", "x,y", dimension_length, system, diagnostics, &
         report%about, report%has_about)
     end if
   end subroutine read_frame
-
-  !> Whether the value of an entry is one word, and no list.
-  pure function is_name(entry) result(is)
-    type(entry_t), intent(in) :: entry
-    logical :: is
-
-    is = len(entry%value%text) > 0 .and. index(entry%value%text, ",") == 0
-  end function is_name
 
   !> Reads `REPORT shapes [crank=a,b,...] [speed=...] [points=]`.
   pure subroutine read_shapes(card, by_length, system, diagnostics, report)
@@ -293,7 +285,7 @@ contains
 
     type(value_list_t) :: angle
     logical :: fine, ends, steps
-    integer :: i, choice
+    integer :: choice
 
     if (known_keys .and. .not. has_key(card, "crank")) then
       call add_error(diagnostics, card%keyword, &
@@ -311,28 +303,26 @@ contains
     call read_entry_quantity(card, "speed", merge(dimension_velocity, dimension_rate, by_length), &
       system, .false., diagnostics, report%start_speed, fine)
     if (fine) then
-      report%start_speed_word = card%entries(entry_number(card, "speed"))%value
+      report%start_speed_word = value_of(card, "speed")
       call read_values([report%start_speed_word], merge(dimension_velocity, dimension_rate, &
         by_length), system, "speed", diagnostics, report%speed)
     end if
-    i = entry_number(card, "pins")
-    if (i > 0) then
-      call read_choice(card%entries(i)%value, "no yes", diagnostics, choice)
+    if (has_value(card, "pins")) then
+      call read_choice(value_of(card, "pins"), "no yes", diagnostics, choice)
       report%with_pins = choice == 2
     end if
     call read_columns(card, diagnostics, report)
-    i = entry_number(card, "change_points")
-    if (i > 0) then
-      report%through_word = card%entries(i)%value
+    if (has_value(card, "change_points")) then
+      report%through_word = value_of(card, "change_points")
       call read_choice(report%through_word, "stop through", diagnostics, choice)
       report%through = choice == 2
     end if
     call read_entry_quantity(card, "end", dimension_time, system, known_keys, diagnostics, &
       report%end_time, ends)
-    if (ends) report%end_time_word = card%entries(entry_number(card, "end"))%value
+    if (ends) report%end_time_word = value_of(card, "end")
     call read_entry_quantity(card, "step", dimension_time, system, known_keys, diagnostics, &
       report%time_step, steps)
-    if (steps) report%time_step_word = card%entries(entry_number(card, "step"))%value
+    if (steps) report%time_step_word = value_of(card, "step")
     if (ends) call require_positive(card, "end", report%end_time, diagnostics)
     if (steps) call require_positive(card, "step", report%time_step, diagnostics)
     if (report%end_time <= 0.0_wp .or. report%time_step <= 0.0_wp) return
@@ -382,7 +372,7 @@ contains
     integer :: first(3), choice, i !! `first`: number of each word in the list, 0: absent
     logical :: fine
 
-    if (entry_number(card, "columns") == 0) return
+    if (.not. has_value(card, "columns")) return
     call find_items(card, "columns", diagnostics, words, fine)
     if (.not. fine) return
     first = 0

@@ -1,8 +1,7 @@
 !> TITLE, CRANK, SPEED and MODES cards, and cards that choose one of several words (INERTIA,
 !! SOLVER).
 module request_cards
-  use card_reader, only: check_form, entry_number, read_choice, read_entry_quantity, &
-    require_positive
+  use card_reader, only: check_form, read_choice, read_entry_quantity, require_positive, value_of
   use card_table, only: card_kind_t, kind_of_card
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
@@ -111,7 +110,7 @@ contains
     if (.not. fine) return
     call require_positive(card, "ramp", time, diagnostics)
     ramp = max(time, 0.0_wp)
-    ramp_word = card%entries(entry_number(card, "ramp"))%value
+    ramp_word = value_of(card, "ramp")
   end subroutine read_speed
 
   !> Reads `MODES number`. Errors: words or keys that do not fit the card, a number that is not

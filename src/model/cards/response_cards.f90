@@ -2,15 +2,15 @@
 !! Names are looked up later, by `response_checks`.
 module response_cards
   use body_cards, only: read_place
-  use card_reader, only: check_form, entry_number, has_key, read_choice, read_entry_quantity, &
-    read_name, refuse_negative
+  use card_reader, only: check_form, has_key, has_value, key_of, read_choice, read_entry_quantity, &
+    read_name, refuse_negative, value_of
   use card_table, only: card_kind_t, kind_of_card
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
   use spelling, only: suggestion
   use text, only: joined, lower_case, same_word, word_list
-  use tokens, only: token_t
+  use tokens, only: earlier, later, token_t
   use units, only: dimension_none, dimension_time, unit_system_t
   use value_lists, only: find_items
   implicit none (type, external)
@@ -66,6 +66,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(damping_card_t), intent(out) :: damping      !! as read; the links are not looked up
 
+    type(token_t) :: word
     logical :: fine, known_keys
 
     damping%keyword = card%keyword
@@ -81,16 +82,15 @@ contains
     end if
     call read_entry_quantity(card, "time", dimension_time, system, .false., diagnostics, &
       damping%time, damping%has_time)
-    if (damping%has_time) call refuse_negative(card%entries(entry_number(card, "time"))%value, &
+    if (damping%has_time) call refuse_negative(value_of(card, "time"), &
       damping%time, "a damping time", diagnostics)
     call read_entry_quantity(card, "ratio", dimension_none, system, .false., diagnostics, &
       damping%ratio, damping%has_ratio)
     if (.not. damping%has_ratio) return
-    associate (word => card%entries(entry_number(card, "ratio"))%value)
-      call refuse_negative(word, damping%ratio, "a damping ratio", diagnostics)
-      if (damping%ratio >= 1.0_wp) call add_error(diagnostics, word, &
-        "a damping ratio must be less than 1, not "//word%text)
-    end associate
+    word = value_of(card, "ratio")
+    call refuse_negative(word, damping%ratio, "a damping ratio", diagnostics)
+    if (damping%ratio >= 1.0_wp) call add_error(diagnostics, word, &
+      "a damping ratio must be less than 1, not "//word%text)
   end subroutine read_damping
 
   !> Reports that both keys are given, at the later one.
@@ -98,20 +98,12 @@ contains
     type(card_t), intent(in) :: card
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    integer :: i, first
+    type(token_t) :: first
 
-    first = 0
-    do i = 1, size(card%entries)
-      associate (key => card%entries(i)%key)
-        if (.not. same_word(key%text, "time") .and. .not. same_word(key%text, "ratio")) cycle
-        if (first == 0) first = i
-        if (same_word(key%text, card%entries(first)%key%text)) cycle
-        call add_error(diagnostics, key, "the damping of a link is given by 'time=' or by "// &
-          "'ratio=', not by both", card%entries(first)%key, &
-          "'"//card%entries(first)%key%text//"=' is given here")
-        return
-      end associate
-    end do
+    first = earlier(key_of(card, "time"), key_of(card, "ratio"))
+    call add_error(diagnostics, later(key_of(card, "time"), key_of(card, "ratio")), "the "// &
+      "damping of a link is given by 'time=' or by 'ratio=', not by both", first, "'"// &
+      first%text//"=' is given here")
   end subroutine refuse_both
 
   !> Reads `GAUGE name link at= [side=left|right]`. Errors: words or keys that do not fit the card,
@@ -124,7 +116,7 @@ contains
 
     type(card_kind_t) :: kind
     real(wp) :: place(2)
-    integer :: choice, i
+    integer :: choice
     logical :: fine, known_keys
 
     gauge%name = token_t("", 0, 0)
@@ -138,10 +130,9 @@ contains
     ! It has no `offset=`: the second coordinate stays 0.
     call read_place(card, "at", known_keys, system, diagnostics, place, gauge%at_word)
     gauge%at = place(1)
-    i = entry_number(card, "side")
-    if (i == 0) return
+    if (.not. has_value(card, "side")) return
     kind = kind_of_card(card%keyword%text)
-    call read_choice(card%entries(i)%value, trim(kind%choices), diagnostics, choice)
+    call read_choice(value_of(card, "side"), trim(kind%choices), diagnostics, choice)
     if (choice > 0) gauge%side = choice
   end subroutine read_gauge
 
@@ -178,7 +169,7 @@ contains
     if (known_keys .and. .not. has_key(card, "without")) call add_error(diagnostics, &
       card%keyword, "'without=' is missing; expected one or several of: "// &
       joined(word_list(trim(kind%choices)))//", with commas between them")
-    if (entry_number(card, "without") == 0) return
+    if (.not. has_value(card, "without")) return
     call find_items(card, "without", diagnostics, words, fine)
     if (.not. fine) return
     first = 0

@@ -1,7 +1,7 @@
 !> SECTION card: the cross-section of a link.
 module sections
-  use card_reader, only: check_form, entry_number, has_key, read_choice, read_entry_quantity, &
-    read_name, require_positive
+  use card_reader, only: check_form, has_key, has_value, read_choice, read_entry_quantity, &
+    read_name, require_positive, value_of
   use card_table, only: card_kind_t, kind_of_card
   use cards, only: card_t
   use constants, only: pi
@@ -108,7 +108,7 @@ contains
     call read_entry_quantity(card, key, dimension_none, system, .false., diagnostics, &
       section%shear_coefficient, fine)
     if (.not. fine) return
-    section%shear_word = card%entries(entry_number(card, key))%value
+    section%shear_word = value_of(card, key)
     if (section%shear_coefficient > 0.0_wp .and. section%shear_coefficient <= 1.0_wp) return
     call add_error(diagnostics, section%shear_word, &
       "'shear_coefficient=' must be above 0 and at most 1, not "//section%shear_word%text)
@@ -215,9 +215,8 @@ contains
     call read_positive(card, "web", dimension_length, system, known_keys, diagnostics, web)
     call read_positive(card, "flange", dimension_length, system, known_keys, diagnostics, flange)
     kind = kind_of_card(card%keyword%text, form)
-    if (entry_number(card, "plane") > 0) then
-      call read_choice(card%entries(entry_number(card, "plane"))%value, trim(kind%choices), &
-        diagnostics, section%plane)
+    if (has_value(card, "plane")) then
+      call read_choice(value_of(card, "plane"), trim(kind%choices), diagnostics, section%plane)
     else if (known_keys .and. .not. has_key(card, "plane")) then
       call add_error(diagnostics, card%keyword, "'plane=' is missing; expected plane=web or "// &
         "plane=flanges, whichever lies in the plane of motion")
@@ -253,16 +252,17 @@ contains
     logical, intent(out) :: fine                   !! false after an error
     character(len=*), intent(in), optional :: share !! of the limit, for the message: `half of `
 
+    type(token_t) :: word, limit_word
     character(len=:), allocatable :: part
 
     fine = limit <= 0.0_wp .or. value < limit
     if (fine) return
     part = ""
     if (present(share)) part = share
-    call add_error(diagnostics, card%entries(entry_number(card, key))%value, "'"//key// &
-      "=' must be less than "//part//"'"//limit_key//"=', "// &
-      card%entries(entry_number(card, limit_key))%value%text//", not "// &
-      card%entries(entry_number(card, key))%value%text)
+    word = value_of(card, key)
+    limit_word = value_of(card, limit_key)
+    call add_error(diagnostics, word, "'"//key//"=' must be less than "//part//"'"//limit_key// &
+      "=', "//limit_word%text//", not "//word%text)
   end subroutine require_less
 
   pure subroutine read_general(card, system, diagnostics, section)

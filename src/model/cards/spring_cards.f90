@@ -1,13 +1,13 @@
 !> SPRING and DAMPER cards: along the line between two places, or torsional between two links or a
 !! link and the ground. Names are looked up later, by `spring_checks`.
 module spring_cards
-  use card_reader, only: check_form, entry_number, read_entry_quantity, read_part_name, &
-    refuse_negative
+  use card_reader, only: check_form, key_of, read_entry_quantity, read_part_name, refuse_negative, &
+    value_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
   use text, only: same_word
-  use tokens, only: token_t
+  use tokens, only: earlier, later, token_t
   use units, only: dimension_angle, dimension_damping, dimension_force, dimension_length, &
     dimension_line_damping, dimension_line_stiffness, dimension_moment, &
     dimension_turning_stiffness, unit_system_t
@@ -101,20 +101,20 @@ contains
         spring%rest, spring%has_rest)
       call read_entry_quantity(card, "torque", dimension_moment, system, .false., diagnostics, &
         spring%load, has_load)
-      if (has_load) spring%load_word = card%entries(entry_number(card, "torque"))%value
+      if (has_load) spring%load_word = value_of(card, "torque")
     else
       call read_entry_quantity(card, "free_length", dimension_length, system, .false., &
         diagnostics, spring%rest, spring%has_rest)
-      if (spring%has_rest) call refuse_negative(card%entries(entry_number(card, &
-        "free_length"))%value, spring%rest, "a free length", diagnostics)
+      if (spring%has_rest) call refuse_negative(value_of(card, "free_length"), spring%rest, &
+        "a free length", diagnostics)
       call read_entry_quantity(card, "force", dimension_force, system, .false., diagnostics, &
         spring%load, has_load)
-      if (has_load) spring%load_word = card%entries(entry_number(card, "force"))%value
+      if (has_load) spring%load_word = value_of(card, "force")
     end if
     if (spring%has_rest .and. has_load) call refuse_both(card, merge("free_angle ", &
       "free_length", turns), merge("torque", "force ", turns), diagnostics)
     if (is_stiff .and. .not. spring%stiffness > 0.0_wp .and. .not. has_load) call &
-      add_error(diagnostics, card%entries(entry_number(card, "stiffness"))%value, &
+      add_error(diagnostics, value_of(card, "stiffness"), &
       "a spring without stiffness does nothing but with '"//trim(merge("torque", "force ", &
       turns))//"=', which it then keeps")
   end subroutine read_spring
@@ -132,8 +132,7 @@ contains
     logical, intent(out) :: fine !! whether it was read and is not negative
 
     call read_entry_quantity(card, key, dimension, system, known_keys, diagnostics, value, fine)
-    if (fine) call refuse_negative(card%entries(entry_number(card, key))%value, value, &
-      "the "//key, diagnostics)
+    if (fine) call refuse_negative(value_of(card, key), value, "the "//key, diagnostics)
     fine = fine .and. value >= 0.0_wp
   end subroutine read_factor
 
@@ -167,13 +166,12 @@ contains
     character(len=*), intent(in) :: rest, load !! keys
     type(diagnostics_t), intent(inout) :: diagnostics
 
-    integer :: first, second
+    type(token_t) :: first
 
-    first = min(entry_number(card, trim(rest)), entry_number(card, trim(load)))
-    second = max(entry_number(card, trim(rest)), entry_number(card, trim(load)))
-    call add_error(diagnostics, card%entries(second)%key, "a spring has '"//trim(rest)// &
-      "=' or '"//trim(load)//"=', not both", card%entries(first)%key, "'"// &
-      card%entries(first)%key%text//"=' is given here")
+    first = earlier(key_of(card, trim(rest)), key_of(card, trim(load)))
+    call add_error(diagnostics, later(key_of(card, trim(rest)), key_of(card, trim(load))), &
+      "a spring has '"//trim(rest)//"=' or '"//trim(load)//"=', not both", first, "'"// &
+      first%text//"=' is given here")
   end subroutine refuse_both
 
 end module spring_cards

@@ -1,6 +1,6 @@
 !> `REPORT summary`: the quantities of which a variant has a row.
 module summary_cards
-  use card_reader, only: entry_number, has_key
+  use card_reader, only: has_key, has_value
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use spelling, only: suggestion
@@ -49,7 +49,7 @@ contains
       return
     end if
     ! Without a value it is no entry, and reported as such.
-    if (entry_number(card, "of") == 0) return
+    if (.not. has_value(card, "of")) return
     call find_items(card, "of", diagnostics, words, fine)
     if (.not. fine) return
     kept = 0

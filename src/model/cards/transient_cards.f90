@@ -1,7 +1,7 @@
 !> `REPORT transient`: elastic motions in time.
 module transient_cards
-  use card_reader, only: entry_number, has_key, read_choice, read_entry_count, &
-    read_entry_quantity, read_quantity, require_positive
+  use card_reader, only: has_key, has_value, read_choice, read_entry_count, read_entry_quantity, &
+    read_quantity, require_positive, value_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_input, error_t, set_error
@@ -49,16 +49,16 @@ contains
     type(transient_card_t), intent(out) :: transient  !! as read
 
     type(value_list_t) :: angle
-    integer :: choice, i, instants
+    integer :: choice, instants
     logical :: fine
 
     call read_entry_quantity(card, "turns", dimension_none, system, .false., diagnostics, &
       transient%turns, fine)
     transient%lacks_turns = known_keys .and. .not. has_key(card, "turns")
-    transient%turns_word = word_of("turns")
-    transient%crank_word = word_of("crank")
-    transient%instants_word = word_of("instants")
-    transient%start_word = word_of("start")
+    transient%turns_word = value_of(card, "turns")
+    transient%crank_word = value_of(card, "crank")
+    transient%instants_word = value_of(card, "instants")
+    transient%start_word = value_of(card, "start")
     if (fine) call require_positive(card, "turns", transient%turns, diagnostics)
     transient%crank = default_number(kind, "crank")
     call read_entry_list(card, "crank", dimension_angle, system, diagnostics, angle)
@@ -71,32 +71,15 @@ contains
     transient%instants = nint(default_number(kind, "instants"))
     call read_entry_count(card, "instants", 1, diagnostics, instants, fine)
     if (fine) transient%instants = instants
-    i = entry_number(card, "turns")
-    if (i > 0 .and. transient%turns*transient%instants > most_rows) call add_error(diagnostics, &
-      card%entries(i)%value, "a motion of more than "//to_string(most_rows)//" rows is asked "// &
-      "for: "//to_string(transient%instants)//" in a turn; expected fewer 'turns=' or 'instants='")
-    i = entry_number(card, "start")
-    if (i > 0) then
+    if (has_value(card, "turns") .and. transient%turns*transient%instants > most_rows) call &
+      add_error(diagnostics, value_of(card, "turns"), "a motion of more than "// &
+      to_string(most_rows)//" rows is asked for: "//to_string(transient%instants)//" in a "// &
+      "turn; expected fewer 'turns=' or 'instants='")
+    if (has_value(card, "start")) then
       call read_choice(transient%start_word, "rest steady", diagnostics, choice)
       transient%steady = choice == 2
     end if
-    if (entry_number(card, "perturb") > 0) call read_perturbation(card, system, diagnostics, &
-      transient)
-
-  contains
-
-    !> The word of a key; without a line if the card does not give it.
-    pure function word_of(key) result(word)
-      character(len=*), intent(in) :: key
-      type(token_t) :: word
-
-      integer :: number
-
-      word = token_t("", 0, 0)
-      number = entry_number(card, key)
-      if (number > 0) word = card%entries(number)%value
-    end function word_of
-
+    if (has_value(card, "perturb")) call read_perturbation(card, system, diagnostics, transient)
   end subroutine read_transient
 
   !> Reads `perturb=mode,amplitude` or `perturb=mode,amplitude,velocity`.

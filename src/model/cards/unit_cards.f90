@@ -1,6 +1,6 @@
 !> UNITS card: the units of bare numbers, and those of results.
 module unit_cards
-  use card_reader, only: check_form, entry_number, has_key
+  use card_reader, only: check_form, has_key, has_value, value_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_input, error_t, set_error
@@ -49,11 +49,8 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(unit_t), intent(inout) :: measure
 
-    integer :: number
-
-    number = entry_number(card, key)
-    if (number == 0) return
-    call read_word(card%entries(number)%value, dimension, diagnostics, measure, key == "energy")
+    if (.not. has_value(card, key)) return
+    call read_word(value_of(card, key), dimension, diagnostics, measure, key == "energy")
     measure%name = table_name(measure)
   end subroutine read_entry
 

@@ -2,7 +2,7 @@
 !! state needs.
 module response_checks
   use body_checks, only: seek_link
-  use card_reader, only: entry_number
+  use card_reader, only: has_value, value_of
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use errors, only: error_of_writing
@@ -164,14 +164,13 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    integer :: i, entry
+    integer :: i
 
     if (abs(model%acceleration) <= 0.0_wp) return
     do i = 1, size(cards)
       if (.not. same_word(cards(i)%keyword%text, "SPEED")) cycle
-      entry = entry_number(cards(i), "alpha")
-      if (entry == 0) cycle
-      call add_error(diagnostics, cards(i)%entries(entry)%value, report_in_motion(model)// &
+      if (.not. has_value(cards(i), "alpha")) cycle
+      call add_error(diagnostics, value_of(cards(i), "alpha"), report_in_motion(model)// &
         " is on a steady state, and an accelerating crank has none; expected no 'alpha=', or "// &
         "alpha=0")
     end do

@@ -1,7 +1,7 @@
 !> Warnings about bare numbers that are in another unit than the results: who reads N in the tables
 !! takes a bare 10 for 10 N, and in a deck of mm, kg and s it is 10 kg mm/s².
 module unit_checks
-  use card_reader, only: entry_number
+  use card_reader, only: has_value, value_of
   use cards, only: card_t
   use diagnostics, only: add_warning, diagnostics_t
   use errors, only: error_t
@@ -71,7 +71,7 @@ contains
     keyword = card%keyword%text
     if (noun == "forces" .and. same_word(trim(keyword), "FORCE")) then
       ! Beside a table the words are a direction.
-      if (entry_number(card, "table") > 0) return
+      if (has_value(card, "table")) return
       words = card%words(min(2, size(card%words) + 1):)
     else if (noun == "torques" .and. same_word(trim(keyword), "TORQUE")) then
       words = card%words(min(2, size(card%words) + 1):)
@@ -100,10 +100,11 @@ contains
     character(len=*), intent(in) :: key
     type(token_t), allocatable, intent(inout) :: words(:)
 
-    integer :: number
+    type(token_t) :: word
 
-    number = entry_number(card, key)
-    if (number > 0) words = [words, card%entries(number)%value]
+    ! gfortran 12 leaks a function's result in an array constructor.
+    word = value_of(card, key)
+    if (word%line > 0) words = [words, word]
   end subroutine append_value
 
   !> Whether a word is a number other than 0 without a unit.
