@@ -265,14 +265,15 @@ contains
     character(len=*), intent(in) :: words !! separated by single blanks
     type(string_t), allocatable :: list(:)
 
-    integer :: i, first, length
+    integer :: i, first, last
 
     allocate (list(merge(0, 1 + count([(words(i:i) == " ", i=1, len(words))]), len(words) == 0)))
     first = 1
     do i = 1, size(list)
-      length = index(words(first:)//" ", " ") - 1
-      list(i)%text = words(first:first + length - 1)
-      first = first + length + 1
+      last = len(words)
+      if (i < size(list)) last = first + index(words(first:), " ") - 2
+      list(i)%text = words(first:last)
+      first = last + 2
     end do
   end function word_list
 

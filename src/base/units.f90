@@ -140,7 +140,8 @@ contains
     first = 1
     step = 1
     do
-      last = first - 1 + scan(name(first:)//"*", "*/") - 1
+      last = scan(name(first:), "*/")
+      last = merge(first + last - 2, len(name), last > 0)
       call multiply_by_power(measure, name(first:last), step, wanted, error)
       if (allocated(error) .or. last >= len(name)) return
       step = merge(-1, 1, name(last + 1:last + 1) == "/")
@@ -156,16 +157,19 @@ contains
 
     character(len=2), parameter :: sign(4) = char(194)//[char(176), char(183), char(178), char(179)]
     character(len=3), parameter :: meaning(4) = ["deg", "*  ", "2  ", "3  "]
-    character(len=2*len(text)) :: buffer
-    integer :: at, length, i
+    character(len=:), allocatable :: buffer
+    integer :: at, length, i, n
 
+    ! A sign has two bytes, and its meaning three at most.
+    allocate (character(len=2*len(text)) :: buffer)
     at = 1
     length = 0
     characters: do while (at <= len(text))
       do i = 1, size(sign)
-        if (index(text(at:), sign(i)) /= 1) cycle
-        buffer(length + 1:) = meaning(i)
-        length = length + len_trim(meaning(i))
+        if (text(at:min(at + 1, len(text))) /= sign(i)) cycle
+        n = len_trim(meaning(i))
+        buffer(length + 1:length + n) = meaning(i)
+        length = length + n
         at = at + len(sign)
         cycle characters
       end do

@@ -240,12 +240,13 @@ contains
     type(settings_t), intent(in) :: settings
     character(len=:), allocatable :: hint
 
+    integer, parameter :: longest_unit = 32
     type(unit_t) :: measure
     type(error_t), allocatable :: error
     integer :: length
 
     hint = ""
-    do length = len(name) - 1, 1, -1
+    do length = len(name) - 1, max(1, len(name) - longest_unit), -1
       if (find_name(settings%names, name(:length)) == 0) cycle
       call read_unit(name(length + 1:), dimension_none, measure, error)
       if (allocated(error)) cycle
