@@ -244,8 +244,9 @@ else
 # -------------------------------------------------------------------------------------- the build itself, of one kind
 build = build/$(kind)
 
-# No -ffast-math and no -march=native: the same deck must give the same bytes on every machine of a kind.
-flags_release    = -O3
+# No -ffast-math and no -march=native: the same deck must give the same bytes on every machine of a kind. Arrays are on
+# the heap, not on the stack (no -fstack-arrays), and memory that the system refuses is no null pointer (-fcheck=mem).
+flags_release    = -O3 -fcheck=mem
 flags_quad       = -O2
 flags_debug      = -Og -g -fbacktrace -fcheck=all -fcheck=no-array-temps -ffpe-trap=invalid,zero,overflow -finit-real=snan -finit-derived
 # For `make memory`: addresses, leaks and undefined behaviour. One byte off in any module stops the program.
@@ -303,17 +304,7 @@ $(build)/command: ;
 
 $(build)/%.o: %.f90 $(build)/command
 	@echo "$(FC) ($(kind)) $<"
-	$(compile) $(options) $(stack) -c $< -o $@
-
-# The arrays of these are small: on the stack they cost nothing, while each from the heap costs a tenth of a microsecond,
-# and there are hundreds at every position. Values do not change. Modules with large arrays stay with the heap.
-small = acceleration_fields axial_forces axial_limits body_lumps bordered_matrix bordered_solver completeness_proof \
-        eigenvalue_gaps eigenvalue_sensitivity inertia_loads joint_forces kinematic_coefficients linkages load_cases \
-        matrix_rounding order_changes order_errors pin_displacements pose_rounding poses position_equations position_solver \
-        reduced_assembly rigid_bodies speed_solver start_extrapolation
-ifeq ($(kind),release)
-$(small:%=$(build)/%.o): stack = -fstack-arrays
-endif
+	$(compile) $(options) -c $< -o $@
 
 $(test_modules): $(build)/kinds.o
 

@@ -2,6 +2,7 @@
 !! deck and sets the exit status.
 program main
   use, intrinsic :: iso_fortran_env, only: error_unit
+  use available_memory, only: threads_in_memory
   use card_help, only: card_help_text
   use command_line, only: command_t, help_text, read_command_line, version_text
   use deck_readings, only: deck_t, read_deck
@@ -17,7 +18,7 @@ program main
   use shell_completion, only: completion_text
   use standard_output, only: end_of_output, print_text
   use stopwatch, only: lap, start_stopwatch, stopwatch_t
-  use text, only: string_t, visible
+  use text, only: plural, string_t, to_string, visible
   implicit none (type, external)
 
   type(command_t) :: command
@@ -27,7 +28,7 @@ program main
   type(error_t), allocatable :: error, unprinted
   type(stopwatch_t) :: watch
   real(wp) :: so_far
-  integer :: i, j, processes
+  integer :: i, j, processes, threads
   logical :: refused
 
   call start_stopwatch(watch)
@@ -56,6 +57,11 @@ program main
     call print_and_leave(completion_text(command%shell))
   end if
 
+  threads = threads_in_memory(command%threads)
+  if (threads < command%threads .and. .not. command%quiet) call say("flexmech: warning: the "// &
+    "limit of address space (ulimit -v) has room for "//to_string(threads)//" of "// &
+    plural(command%threads, "thread")//achar(10))
+  command%threads = threads
   options%folder = command%folder
   options%threads = command%threads
   options%quiet = command%quiet

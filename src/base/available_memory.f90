@@ -5,15 +5,16 @@ module available_memory
   implicit none (type, external)
   private
 
-  public :: available_memory_t, find_available_memory, memory_text
+  public :: available_memory_t, find_available_memory, threads_in_memory, memory_text
 
   type :: available_memory_t
     real(wp) :: bytes = huge(1.0_wp)        !! that may still be taken; huge if unknown
     character(len=:), allocatable :: clause !! the same in words, for a message
   end type available_memory_t
 
-  !> Address space that every thread beyond the first takes for its stack, used or not [bytes].
-  real(wp), parameter :: stack_size = 8.0_wp*2.0_wp**20
+  !> Address space that every thread beyond the first takes for its stack, used or not, and what the
+  !! C library sets aside for what it allocates [bytes].
+  real(wp), parameter :: stack_size = 8.0_wp*2.0_wp**20, heap_size = 64.0_wp*2.0_wp**20
 
   real(wp), parameter :: kibibyte = 1024.0_wp
   integer, parameter :: line_length = 512
@@ -28,7 +29,7 @@ contains
                                                !! memory; absent: one
     type(available_memory_t) :: available      !! for one of them
 
-    real(wp) :: limit, taken
+    real(wp) :: limit
     character(len=:), allocatable :: shared
     integer :: sharing
 
@@ -40,12 +41,9 @@ contains
     limit = number_after("/proc/meminfo", "MemAvailable:")
     if (limit >= 0.0_wp) call lower(kibibyte*limit/sharing, "this machine has", "free "//shared)
     call lower(left_by_groups()/sharing, "its control group leaves", shared)
-    limit = number_after("/proc/self/limits", "Max address space")
-    taken = number_after("/proc/self/status", "VmSize:")
-    if (limit >= 0.0_wp .and. taken >= 0.0_wp) then
-      limit = max(0.0_wp, limit - kibibyte*taken - (threads - 1)*stack_size)
-      call lower(limit, "the limit of address space (ulimit -v) leaves", "")
-    end if
+    limit = address_space()
+    if (limit < huge(limit)) call lower(max(0.0_wp, limit - (threads - 1)*stack_size), &
+      "the limit of address space (ulimit -v) leaves", "")
 
   contains
 
@@ -59,6 +57,28 @@ contains
     end subroutine lower
 
   end function find_available_memory
+
+  !> How many of so many threads the limit of address space has room for: they take at most half of
+  !! it. Where a thread finds no room for what it allocates, every piece takes a page.
+  integer function threads_in_memory(threads)
+    integer, intent(in) :: threads !! 1 or more
+
+    real(wp) :: room
+
+    room = 0.5_wp*address_space()/(stack_size + heap_size)
+    threads_in_memory = threads
+    if (room < threads - 1) threads_in_memory = 1 + int(room)
+  end function threads_in_memory
+
+  !> What the limit of address space leaves; huge without a limit [bytes].
+  real(wp) function address_space()
+    real(wp) :: limit, taken
+
+    address_space = huge(address_space)
+    limit = number_after("/proc/self/limits", "Max address space")
+    taken = number_after("/proc/self/status", "VmSize:")
+    if (limit >= 0.0_wp .and. taken >= 0.0_wp) address_space = max(0.0_wp, limit - kibibyte*taken)
+  end function address_space
 
   !> `7.8 GB`, to two digits; below 0.995 GB in MB, at least 1.0 MB.
   pure function memory_text(bytes) result(text)

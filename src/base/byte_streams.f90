@@ -19,8 +19,9 @@ contains
     type(text_buffer_t), intent(inout) :: buffer !! bytes so far
     integer, intent(in) :: values(:)             !! appended in their order
 
-    character(len=integer_bytes*size(values)) :: bytes
+    character(len=:), allocatable :: bytes
 
+    allocate (character(len=integer_bytes*size(values)) :: bytes)
     bytes = transfer(values, bytes)
     call append_text(buffer, bytes)
   end subroutine put_integers
@@ -38,8 +39,9 @@ contains
     type(text_buffer_t), intent(inout) :: buffer !! bytes so far
     real(wp), intent(in) :: values(:)            !! appended in their order
 
-    character(len=real_bytes*size(values)) :: bytes
+    character(len=:), allocatable :: bytes
 
+    allocate (character(len=real_bytes*size(values)) :: bytes)
     bytes = transfer(values, bytes)
     call append_text(buffer, bytes)
   end subroutine put_reals

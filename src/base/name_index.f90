@@ -55,7 +55,7 @@ contains
     integer :: bucket
 
     integer(long), parameter :: prime = 16777619_long, modulus = 4294967296_long
-    character(len=len(name)) :: key
+    character(len=:), allocatable :: key
     integer(long) :: hash
     integer :: i
 

@@ -5,10 +5,11 @@ module system_calls
   implicit none (type, external)
   private
 
-  public :: glob_t, c_close, c_closedir, c_errno, c_fclose, c_fflush, c_fileno, c_flock, c_fopen, &
-    c_fseek, c_fwrite, c_gethostname, c_getpid, c_glob, c_globfree, c_isatty, c_mkdir, c_mkdtemp, &
-    c_opendir, c_realpath, c_rename, c_rmdir, c_sched_yield, c_signal, c_strerror, c_strlen, &
-    c_truncate, c_unlink, c_usleep, c_write
+  public :: glob_t, c_clearerr, c_close, c_closedir, c_errno, c_exit_at_once, c_fclose, c_fdopen, &
+    c_ferror, c_fflush, c_fileno, c_flock, c_fopen, c_fread, c_fseek, c_fwrite, c_gethostname, &
+    c_getpid, c_glob, c_globfree, c_isatty, c_mkdir, c_mkdtemp, c_opendir, c_realpath, c_rename, &
+    c_rmdir, c_sched_yield, c_siginterrupt, c_signal, c_strerror, c_strlen, c_truncate, c_unlink, &
+    c_usleep, c_write
 
   !> The result of `glob`, as the C libraries of Linux have it: its members of POSIX, and more
   !! room than their own ones need.
@@ -61,6 +62,32 @@ module system_calls
       integer(c_int), value :: whence
       integer(c_int) :: status
     end function c_fseek
+
+    function c_fdopen(descriptor, mode) bind(c, name="fdopen") result(stream)
+      import :: c_char, c_int, c_ptr
+      integer(c_int), value :: descriptor
+      character(kind=c_char), intent(in) :: mode(*)
+      type(c_ptr) :: stream
+    end function c_fdopen
+
+    function c_fread(bytes, size, count, stream) bind(c, name="fread") result(taken)
+      import :: c_char, c_ptr, c_size_t
+      character(kind=c_char), intent(inout) :: bytes(*)
+      integer(c_size_t), value :: size, count
+      type(c_ptr), value :: stream
+      integer(c_size_t) :: taken
+    end function c_fread
+
+    function c_ferror(stream) bind(c, name="ferror") result(status)
+      import :: c_int, c_ptr
+      type(c_ptr), value :: stream
+      integer(c_int) :: status
+    end function c_ferror
+
+    subroutine c_clearerr(stream) bind(c, name="clearerr")
+      import :: c_ptr
+      type(c_ptr), value :: stream
+    end subroutine c_clearerr
 
     function c_fclose(stream) bind(c, name="fclose") result(status)
       import :: c_int, c_ptr
@@ -181,6 +208,11 @@ module system_calls
       integer(c_int) :: status
     end function c_close
 
+    subroutine c_exit_at_once(status) bind(c, name="_exit")
+      import :: c_int
+      integer(c_int), value :: status
+    end subroutine c_exit_at_once
+
     function c_getpid() bind(c, name="getpid") result(number)
       import :: c_int
       integer(c_int) :: number
@@ -199,6 +231,13 @@ module system_calls
       type(c_funptr), value :: handler
       type(c_funptr) :: previous
     end function c_signal
+
+    !> Whether a signal ends a call of the system that waits; else it goes on waiting.
+    function c_siginterrupt(number, ends) bind(c, name="siginterrupt") result(status)
+      import :: c_int
+      integer(c_int), value :: number, ends
+      integer(c_int) :: status
+    end function c_siginterrupt
 
     function c_usleep(microseconds) bind(c, name="usleep") result(status)
       import :: c_int

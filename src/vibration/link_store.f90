@@ -33,10 +33,10 @@ module link_store
   end type link_key_t
 
   type :: link_store_t
-    integer :: made = 0                             !! links decomposed so far
-    integer, private :: held = 0                    !! links in the store
-    type(link_key_t), private :: key(most_links)    !! the first `held` are in use
-    type(link_modes_t), private :: link(most_links) !! in the order of `key`
+    integer :: made = 0                                 !! links decomposed so far
+    integer, private :: held = 0                        !! links in the store
+    type(link_key_t), allocatable, private :: key(:)    !! (most_links) the first `held` are in use
+    type(link_modes_t), allocatable, private :: link(:) !! in the order of `key`
   end type link_store_t
 
 contains
@@ -88,6 +88,7 @@ contains
 
     integer :: slot
 
+    if (store%held == 0) allocate (store%key(most_links), store%link(most_links))
     slot = 1 + modulo(store%made, most_links)
     store%key(slot) = key
     store%link(slot) = link

@@ -23,6 +23,8 @@ FAMILIES = [
     ("the rest of make check", "tests/support/check.py --slow {unit_tests}"),
     ("threads", "tests/stress/run_threads.py --runs 200 --program {program}"),
     ("fuzz", "tests/support/fuzz.py 3000 1"),
+    ("fuzz, 256 kB of stack", "tests/support/fuzz.py --release 20000 2"),
+    ("large decks, 256 kB of stack", "tests/stress/small_stack.py --program {program}"),
     ("numbers", "tests/stress/read_numbers.py build/release/stress/read_words"),
     ("one folder for several runs", "tests/stress/shared_folder.py --pairs 500 --kills 2000 --resumes 200 --program {program}"),
     ("memory", "tests/support/check_memory.py"),

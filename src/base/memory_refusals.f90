@@ -1,0 +1,41 @@
+!> What is said when the system refuses memory, and the end of the program.
+!!
+!! The compiler's library ends it with words on a line of the sources. Procedures of its names here
+!! take their place when the program is linked; they may not return, so that this is the only end
+!! besides that in `main`. The run's folder keeps the files of an earlier run, and the journal.
+module memory_refusals
+  use, intrinsic :: iso_c_binding, only: c_int, c_long, c_ptr, c_size_t
+  use system_calls, only: c_exit_at_once, c_write
+  implicit none (type, external)
+  private
+
+  public :: refuse_allocation, refuse_memory
+
+  character(len=*), parameter :: words = "flexmech: error: the system refuses more memory; "// &
+    "nothing was written, and an earlier run's files are untouched: expected fewer --threads, "// &
+    "positions, speeds or modes, or a higher limit (ulimit -v)"//achar(10)
+
+contains
+
+  !> In place of the library's end after ALLOCATE.
+  subroutine refuse_allocation(place, message) bind(c, name="_gfortran_os_error_at")
+    type(c_ptr), value :: place, message !! of the library: where in the sources, how many bytes
+
+    call refuse_memory(message)
+  end subroutine refuse_allocation
+
+  !> In place of its end elsewhere.
+  subroutine refuse_memory(message) bind(c, name="_gfortran_os_error")
+    type(c_ptr), value :: message
+
+    integer(c_int), parameter :: standard_error = 2_c_int, failure = 1_c_int
+    integer(c_long) :: written
+
+    ! Other threads may be refused memory, too: one speaks.
+    !$omp critical (memory_is_refused)
+    written = c_write(standard_error, words, len(words, c_size_t))
+    call c_exit_at_once(failure)
+    !$omp end critical (memory_is_refused)
+  end subroutine refuse_memory
+
+end module memory_refusals
