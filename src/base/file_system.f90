@@ -1,18 +1,20 @@
 !> Files and folders: what Fortran has no statements for.
 module file_system
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_long, &
-    c_null_char, c_null_ptr, c_ptr
+    c_null_char, c_null_ptr, c_ptr, c_size_t
+  use interruption, only: was_interrupted
   use kinds, only: long
-  use system_calls, only: c_closedir, c_errno, c_fclose, c_fopen, c_fseek, c_glob, c_globfree, &
-    c_isatty, c_mkdir, c_mkdtemp, c_opendir, c_realpath, c_rename, c_rmdir, c_strerror, c_strlen, &
-    c_truncate, c_unlink, glob_t
-  use text, only: append_string, string_t
+  use system_calls, only: c_clearerr, c_closedir, c_errno, c_fclose, c_fdopen, c_ferror, c_fopen, &
+    c_fread, c_fseek, c_glob, c_globfree, c_isatty, c_mkdir, c_mkdtemp, c_opendir, c_realpath, &
+    c_rename, c_rmdir, c_strerror, c_strlen, c_truncate, c_unlink, glob_t
+  use text, only: append_string, string_t, to_string
+  use text_buffer, only: append_text, buffer_text, text_buffer_t
   implicit none (type, external)
   private
 
   public :: is_directory, is_plain_file, file_exists, make_directories, make_own_directory, &
     rename_file, remove_file, remove_empty_directory, remove_directory, shorten_file, &
-    find_matching_files, read_text
+    find_matching_files, read_text, read_standard_input
   public :: base_name, file_name, folder_name, joined_path, real_path, standard_error_is_terminal, &
     system_reason
 
@@ -204,24 +206,78 @@ contains
     call c_globfree(found)
   end subroutine find_matching_files
 
-  !> The bytes of a file; none if it cannot be read.
-  subroutine read_text(path, text)
-    character(len=*), intent(in) :: path !! of a plain file
+  !> The bytes of a file, as far as it can be read.
+  subroutine read_text(path, text, reason)
+    character(len=*), intent(in) :: path                 !! also of a pipe or a device
     character(len=:), allocatable, intent(out) :: text
+    character(len=:), allocatable, intent(out), optional :: reason !! why it cannot be read; empty
+                                                                   !! if it is
 
-    integer :: unit, status, length
+    integer(c_int), parameter :: no_entry = 2_c_int ! ENOENT
+    character(len=:), allocatable :: why
+    type(c_ptr) :: stream
+    integer(c_int) :: status
 
     text = ""
-    open (newunit=unit, file=path, status="old", action="read", access="stream", &
-      form="unformatted", iostat=status)
-    if (status /= 0) return
-    inquire (unit=unit, size=length)
-    deallocate (text)
-    allocate (character(len=max(0, length)) :: text)
-    read (unit, iostat=status) text
-    if (status /= 0) text = ""
-    close (unit)
+    stream = c_fopen(path//c_null_char, "r"//c_null_char)
+    if (c_associated(stream)) then
+      call read_stream(stream, text, why)
+      status = c_fclose(stream)
+    else if (c_errno() == no_entry) then
+      why = "no such file"
+    else
+      why = system_reason()
+    end if
+    if (present(reason)) reason = why
   end subroutine read_text
+
+  !> The bytes of standard input.
+  subroutine read_standard_input(text, reason)
+    character(len=:), allocatable, intent(out) :: text
+    character(len=:), allocatable, intent(out) :: reason !! why it cannot be read; empty if it is
+
+    integer(c_int), parameter :: standard_input = 0_c_int
+    type(c_ptr) :: stream
+
+    text = ""
+    stream = c_fdopen(standard_input, "r"//c_null_char)
+    if (c_associated(stream)) then
+      call read_stream(stream, text, reason)
+    else
+      reason = system_reason()
+    end if
+  end subroutine read_standard_input
+
+  !> An endless device must not fill the memory: reading ends at a NUL byte, which is no text, or at
+  !! half a gigabyte, more than any deck.
+  subroutine read_stream(stream, text, reason)
+    type(c_ptr), intent(in) :: stream
+    character(len=:), allocatable, intent(out) :: text, reason
+
+    integer, parameter :: most_bytes = 500000000
+    integer(c_int), parameter :: interrupted_call = 4_c_int ! EINTR
+    character(kind=c_char, len=8192) :: piece
+    type(text_buffer_t) :: buffer
+    integer :: length
+
+    reason = ""
+    do
+      length = int(c_fread(piece, 1_c_size_t, len(piece, c_size_t), stream))
+      call append_text(buffer, piece(:length))
+      if (index(piece(:length), c_null_char) > 0) exit
+      if (buffer%length > most_bytes) then
+        reason = "it is larger than "//to_string(most_bytes)//" bytes"
+        exit
+      end if
+      if (length == len(piece)) cycle
+      if (c_ferror(stream) == 0_c_int) exit
+      reason = system_reason()
+      if (c_errno() /= interrupted_call .or. was_interrupted()) exit
+      reason = ""
+      call c_clearerr(stream)
+    end do
+    text = buffer_text(buffer)
+  end subroutine read_stream
 
   !> A text without the meaning that some characters have in patterns of names.
   pure function escaped(words) result(text)

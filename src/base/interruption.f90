@@ -5,7 +5,7 @@
 module interruption
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_null_funptr
   use kinds, only: long, wp
-  use system_calls, only: c_signal
+  use system_calls, only: c_siginterrupt, c_signal
   implicit none (type, external)
   private
 
@@ -29,6 +29,7 @@ contains
   subroutine watch_for_interruption()
     integer(c_intptr_t), parameter :: ignored = 1_c_intptr_t ! SIG_IGN of the common C libraries
     type(c_funptr) :: ignoring, previous
+    integer(c_int) :: status
     integer :: i
 
     ignoring = transfer(ignored, c_null_funptr)
@@ -37,8 +38,10 @@ contains
     end do
     do i = 1, size(requests)
       previous = c_signal(requests(i), ignoring)
-      if (transfer(previous, ignored) /= ignored) previous = c_signal(requests(i), &
-        c_funloc(note_signal))
+      if (transfer(previous, ignored) == ignored) cycle
+      previous = c_signal(requests(i), c_funloc(note_signal))
+      ! A pipe that nobody writes to is not waited for.
+      status = c_siginterrupt(requests(i), 1_c_int)
     end do
   end subroutine watch_for_interruption
 

@@ -4,11 +4,9 @@
 !! file in the order of reading. A line number is thus a unique place, and only messages need to
 !! look up the file.
 module deck_source
-  use, intrinsic :: iso_fortran_env, only: input_unit, iostat_end, iostat_eor
   use errors, only: error_of_files, error_t, set_error
-  use file_system, only: is_directory
+  use file_system, only: is_directory, read_standard_input, read_text
   use text, only: character_count, to_string
-  use text_buffer, only: append_text, buffer_text, text_buffer_t
   implicit none (type, external)
   private
 
@@ -37,8 +35,6 @@ module deck_source
 
   character(len=*), parameter :: standard_input = "<standard input>" !! in place of a path
   character(len=*), parameter :: line_feed = achar(10), carriage_return = achar(13), tab = achar(9)
-  integer, parameter :: most_bytes = 500000000
-  character(len=*), parameter :: unreadable = "the deck cannot be read: "
   character(len=*), parameter :: no_break_space = char(194)//char(160)
   !> At the beginning of a file in UTF-16, the Unicode of some editors.
   character(len=2), parameter :: marks_of_utf16(2) = [char(255)//char(254), char(254)//char(255)]
@@ -54,22 +50,15 @@ contains
     type(source_t), intent(out) :: source            !! the deck alone; not for use after an error
     type(error_t), allocatable, intent(out) :: error !! of the kind `error_of_files`
 
-    type(text_buffer_t) :: buffer
-    integer :: status
-    character(len=256) :: message
+    character(len=:), allocatable :: text, reason
 
     if (path /= "-") then
       call read_file(path, source, error)
       return
     end if
-    message = ""
-    call read_lines(input_unit, buffer, status, message)
-    source = source_from_text(standard_input, buffer_text(buffer))
-    if (status == 0) then
-      call find_binary(source, error)
-    else
-      call set_error(error, error_of_files, unreadable//trim(message), path)
-    end if
+    call read_standard_input(text, reason)
+    if (reason == "" .and. text == "") reason = "there is nothing on it; expected a deck"
+    call take_text(standard_input, text, reason, source, error)
   end subroutine read_source
 
   !> Reads a file.
@@ -80,82 +69,42 @@ contains
     type(source_t), intent(out) :: source            !! this file alone; not for use after an error
     type(error_t), allocatable, intent(out) :: error !! of the kind `error_of_files`
 
-    type(text_buffer_t) :: buffer
-    integer :: unit, status
-    character(len=256) :: message
-    logical :: exists
+    character(len=:), allocatable :: text, reason
 
-    inquire (file=path, exist=exists)
     if (is_directory(path)) then
-      call set_error(error, error_of_files, "this is a folder, not a deck", path)
-      return
-    else if (.not. exists) then
-      call set_error(error, error_of_files, "no such file", path)
-      return
+      text = ""
+      reason = "this is a folder, not a deck"
+    else
+      call read_text(path, text, reason)
     end if
-    open (newunit=unit, file=path, status="old", action="read", access="sequential", &
-      form="formatted", iostat=status, iomsg=message)
-    if (status == 0) then
-      call read_lines(unit, buffer, status, message)
-      close (unit)
-    end if
-    if (status /= 0) then
-      call set_error(error, error_of_files, unreadable//trim(message), path)
-      return
-    end if
-    source = source_from_text(path, buffer_text(buffer))
-    call find_binary(source, error)
+    call take_text(path, text, reason, source, error)
   end subroutine read_file
 
-  !> Reads to the end of a file, lines of any length.
-  subroutine read_lines(unit, buffer, status, message)
-    integer, intent(in) :: unit
-    type(text_buffer_t), intent(inout) :: buffer
-    integer, intent(out) :: status !! 0, or an error status
-    character(len=*), intent(inout) :: message
+  subroutine take_text(path, text, reason, source, error)
+    character(len=*), intent(in) :: path
+    character(len=*), intent(in) :: text
+    character(len=*), intent(in) :: reason !! why it is not whole; empty if it is
+    type(source_t), intent(out) :: source
+    type(error_t), allocatable, intent(out) :: error
 
-    character(len=8192) :: piece
-    integer :: length
-    logical :: in_line
+    source = source_from_text(path, text)
+    if (reason == "") then
+      call find_binary(source, error)
+    else
+      call set_error(error, error_of_files, reason, path)
+    end if
+  end subroutine take_text
 
-    in_line = .false.
-    do
-      length = 0
-      read (unit, "(a)", advance="no", size=length, iostat=status, iomsg=message) piece
-      if (length > 0) call append_text(buffer, piece(:length))
-      ! An endless device must not fill the memory: reading ends at a NUL byte, which is no text, or
-      ! at half a gigabyte, more than any deck.
-      if (index(piece(:length), achar(0)) > 0) then
-        call append_text(buffer, line_feed)
-        status = 0
-        return
-      else if (buffer%length > most_bytes) then
-        status = 1
-        message = "it is larger than "//to_string(most_bytes)//" bytes"
-        return
-      end if
-      in_line = in_line .or. length > 0
-      if (status == iostat_eor) then
-        call append_text(buffer, line_feed)
-        in_line = .false.
-      else if (status == iostat_end) then
-        if (in_line) call append_text(buffer, line_feed)
-        status = 0
-        return
-      else if (status /= 0) then
-        return
-      end if
-    end do
-  end subroutine read_lines
-
-  !> A source from a text in memory: splits it into lines and drops a byte order mark and the
-  !! carriage returns at the ends of lines. No-break spaces, which look like blanks, become blanks.
+  !> A source from a text in memory: splits it into lines, which end with a line feed, a carriage
+  !! return or both, and drops a byte order mark. No-break spaces, which look like blanks, become
+  !! blanks.
   pure function source_from_text(path, text) result(source)
     character(len=*), intent(in) :: path !! for messages
     character(len=*), intent(in) :: text !! the last line may lack its line feed
     type(source_t) :: source
 
     character(len=:), allocatable :: kept
+    character(len=1) :: byte
     integer :: i, lines, length
     logical :: has_mark
 
@@ -165,19 +114,21 @@ contains
     lines = 0
     do i = 1, len(text)
       if (i <= 3 .and. has_mark) cycle
-      if (text(i:i) == carriage_return) then
+      byte = text(i:i)
+      if (byte == carriage_return) then
         if (i == len(text)) cycle
         if (text(i + 1:i + 1) == line_feed) cycle
+        byte = line_feed
       end if
       length = length + 1
-      kept(length:length) = text(i:i)
+      kept(length:length) = byte
       if (length > 1) then
         if (kept(length - 1:length) == no_break_space) then
           length = length - 1
           kept(length:length) = " "
         end if
       end if
-      if (text(i:i) == line_feed) lines = lines + 1
+      if (byte == line_feed) lines = lines + 1
     end do
     if (length > 0) then
       if (kept(length:length) /= line_feed) then

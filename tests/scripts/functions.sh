@@ -52,6 +52,14 @@ absent() {
   return 0
 }
 
+# as_somebody COMMAND...: not as root, who may read and write everything; what it says is kept like that of `run`.
+as_somebody() {
+  if [ "$(id -u)" -eq 0 ]; then
+    set -- setpriv --reuid=65534 --regid=65534 --clear-groups "$@"
+  fi
+  "$@" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
+}
+
 # interrupted SIGNAL OUT DECK OPTION...: a run that is sent a signal after a second, and is told to have taken it. Shells start their
 # background jobs deaf to SIGINT, so it is made to hear again.
 interrupted() {
