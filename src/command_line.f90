@@ -167,6 +167,9 @@ contains
       end if
       if (len(value) == 0) then
         call set_error(error, error_of_input, "option "//name//" needs a value")
+      else if (index(value, "--") == 1 .and. k == 0) then
+        call set_error(error, error_of_input, "option "//name//" needs a value, and '"//value// &
+          "' is an option: write "//name//"="//value//" if it is meant")
       else if (name == "--set") then
         call take_setting(value, command%settings, error)
       else if (index(command%valued, " "//name//" ") > 0) then

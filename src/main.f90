@@ -108,8 +108,16 @@ program main
     call finish(0, "")
   end if
 
-  ! Decks are checked as a whole, however long it takes.
+  ! Decks are checked as a whole, however long it takes: a loop of runs with --resume would get
+  ! nowhere if that is all there is time for.
   call lap(watch, so_far)
+  if (so_far >= command%most_time) then
+    call say("flexmech: stopped at its time limit of "//command%limit//": reading and checking "// &
+      "took "//to_string(so_far, 2)//" s, and nothing was computed; expected a longer "// &
+      "--time-limit"//achar(10))
+    outcomes%exit_status = 130
+    call finish(130, "stopped at its time limit of "//command%limit)
+  end if
   call limit_time(command%most_time - so_far)
   do i = 1, size(decks)
     call run_deck(decks(i), options, outcomes(i)%result, error)

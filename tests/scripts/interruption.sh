@@ -68,6 +68,25 @@ while_reading() {
   done
 }
 
+# A pipe that nobody writes to would be waited for.
+pipes() {
+  mkfifo "$scratch/pipe.deck"
+  for signal in INT TERM HUP; do
+    interrupted $signal "$scratch/new" "$scratch/pipe.deck" || return 1
+    says "pipe.deck: interrupted" && absent "$scratch/new" || return 1
+  done
+  mkdir -p "$scratch/pipes/beam"
+  mkfifo "$scratch/pipes/beam/resume.part"
+  run 2 --out "$scratch/pipes" --resume "$deck" && says "resume.part: error: this is a pipe or a device, and a file is to be written there"
+}
+
+# A limit that is over before the variants are checked: a loop of runs with --resume would never end.
+no_time() {
+  { motion_deck && echo "VARY b 270 to 290 step 0.0002"; } | sed 's/length=279.4/length=$b/' >"$scratch/many.deck"
+  run 130 --resume --time-limit 1s --out "$scratch/new" "$scratch/many.deck" && absent "$scratch/new" &&
+    says "flexmech: stopped at its time limit of 1s: reading and checking took" && says "and nothing was computed; expected a longer --time-limit"
+}
+
 # `nohup` and the shell's `&` let a program ignore a signal; it keeps to that.
 deaf() {
   python3 -c 'import os, signal, sys
@@ -109,6 +128,8 @@ INERTIA  distributed
 REPORT   balance
 END_OF_DECK
 check "while a deck is read" while_reading
+check "a pipe in the place of a file" pipes
+check "a time limit shorter than the check" no_time
 check "harmonics stop likewise" stops_soon INT balance
 
 # Minutes between two speeds.

@@ -32,7 +32,8 @@ unknown_option() {
 
 value_missing() {
   run 2 "$deck" --out && says "option --out needs a value" &&
-    run 2 --out= "$deck" && says "option --out needs a value"
+    run 2 --out= "$deck" && says "option --out needs a value" &&
+    run 2 --out --quiet "$deck" && says "option --out needs a value, and '--quiet' is an option: write --out=--quiet if it is meant"
 }
 
 value_twice() {
