@@ -12,6 +12,7 @@ module load_tables
   use load_coordinates, only: counts_turns, load_deflection, place_in
   use pose_types, only: pose_t
   use poses, only: body_angle
+  use text, only: to_string
   implicit none (type, external)
   private
 
@@ -34,6 +35,7 @@ contains
     type(error_t), allocatable, intent(inout) :: error !! allocated if there is such a table or
                                                        !! spring
 
+    character(len=:), allocatable :: words
     real(wp) :: x, first, last
     integer :: i
 
@@ -53,11 +55,12 @@ contains
         first = load%table%x(1)
         last = load%table%x(size(load%table%x))
         if (x >= first - slack*(last - first) .and. x <= last + slack*(last - first)) cycle
-        if (x < first) then
-          call set_error(error, error_of_numerics, "the table "//load%table_name//" begins later")
-        else
-          call set_error(error, error_of_numerics, "the table "//load%table_name//" ends before")
-        end if
+        words = "the table "//load%table_name//trim(merge(" begins later", " ends before ", &
+          x < first))
+        if (load%over == over_angle) words = words//": it is over the angle of the link '"// &
+          load%over_name//"', here "//to_string(x/degree)//" deg; without 'over=' a table is "// &
+          "over the first drive and its turns"
+        call set_error(error, error_of_numerics, words)
         return
       end associate
     end do

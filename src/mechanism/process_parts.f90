@@ -77,6 +77,7 @@ contains
       load%over = load_over_travel
     case (over_angle)
       load%over = load_over_angle
+      load%over_name = process%over_word%text
       load%number = findloc(links, process%number, dim=1)
     end select
   end subroutine set_table
