@@ -299,7 +299,7 @@ def script(build, name, left_out=SLOW_DECKS):
 def fuzzed_decks():
     group = Group("fuzzed decks, debug")
     faults = []
-    fuzz.fuzz(FUZZED, 1, faults.append)
+    fuzz.fuzz("debug", FUZZED, 1, faults.append)
     for fault in faults:
         group.result(*fault.split(": ", 1))
     group.passed = FUZZED - len(faults)

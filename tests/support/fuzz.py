@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Runs the debug build on thousands of odd decks, and looks at how it ends and at what it leaves behind.
+"""Runs the program on thousands of odd decks, tables and command lines, and looks at how it ends and at what it leaves behind.
 
-    fuzz.py [COUNT [SEED]]     10,000 decks of seed 1 by default
+    fuzz.py [--release] [COUNT [SEED]]     10,000 decks of seed 1 by default, with the debug build
 
+Time, memory and the stack of every run are limited, the stack of the release build to 256 kB, also in its threads.
 The same seed makes the same decks on any machine. A deck that fails is kept in build/fuzz/ with the reason beside it.
 Exit status 1 when one has failed.
 """
@@ -17,7 +18,6 @@ import os
 import re
 import resource
 import shutil
-import signal
 import subprocess
 import sys
 from collections import Counter
@@ -27,9 +27,10 @@ from deck_language import language
 from fuzz_decks import Dice
 
 FAILED = os.path.join("build", "fuzz")
-PROGRAM = os.path.join("build", "debug", "flexmech")
+PROGRAMS = {kind: os.path.join("build", kind, "flexmech") for kind in ("debug", "release")}
+MOST_STACK = {"debug": 2**20, "release": 2**18}
 MOST_SECONDS = 100            # of processor time; a deck takes 20 ms as a rule, and the machine may be slow
-MOTION_SECONDS = 20           # of one with a motion, which may run away: as many steps as it has turns are no fault
+SHORT_SECONDS = 10            # of one with a motion, which may run away: as many steps as it has turns are no fault; and of many decks
 MOST_MEMORY = 4*2**30         # of a run; more is a request that the program should have refused
 ECHO_EVERY = 12               # decks that come through: run the echo, and with two threads, of one in so many
 
@@ -53,18 +54,21 @@ WORDS = {"link", "event", "point", "gauge", "linkage", "quantity", "kind", "mode
 GAPS = {"quadratic", "out_of_plane", "distance"}  # of validity.dat: - where nothing is estimated
 OTHERS = {"echo.deck", "run.log", "summary.json"}
 # What a deck may include.
+EARLIER = '{"program": "flexmech", "deck": "d", "tables": [{"file": "mesh.dat"}]}\n'
 PART = b"MATERIAL brass E=100e9Pa density=8500kg/m3 nu=0.35\nSET half 0.5\n"
 
 
-def limits(seconds):
+def limits(seconds, stack):
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
+    resource.setrlimit(resource.RLIMIT_STACK, (stack, stack))
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
 def execute(program, words, folder, seconds=MOST_SECONDS):
+    stack = MOST_STACK[os.path.basename(os.path.dirname(program))]
     return subprocess.run([program] + words, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, check=False,
-                          preexec_fn=functools.partial(limits, seconds))
+                          preexec_fn=functools.partial(limits, seconds, stack))
 
 
 def tree(folder):
@@ -79,7 +83,7 @@ def tree(folder):
     return found
 
 
-def fault_of_message(words, stderr):
+def fault_of_message(names_deck, stderr):
     """What is wrong with what a refusal says."""
     if not stderr.strip():
         return "refused without a word"
@@ -96,7 +100,7 @@ def fault_of_message(words, stderr):
             return f"no caret below: {line}"
     if not any(re.match(r"flexmech: error: .", line) or re.match(r".*: error: .", line) for line in lines):
         return f"no error is reported: {stderr[:200]}"
-    if "DECK" in words and not re.search(r"^(?:d\.deck|part\.deck|missing\.deck|<command line>|flexmech):", stderr, re.MULTILINE):
+    if names_deck and not re.search(r"^(?:d\.deck|part\.deck|missing\.deck|t\.dat|<command line>|flexmech):", stderr, re.MULTILINE):
         return "the deck is not named"
     return None
 
@@ -156,8 +160,8 @@ def fault_of_files(files, deck):
     return None
 
 
-def fault_of_run(words, run, deck):
-    """What is wrong with how a run ended."""
+def fault_of_run(names_deck, run, deck):
+    """What is wrong with how a run ended. `names_deck`: a refusal has to."""
     stderr = run.stderr.decode("utf-8", "replace")
     if run.returncode not in (0, 1, 2):
         return f"ended with status {run.returncode}: {stderr[-400:]}"
@@ -166,7 +170,7 @@ def fault_of_run(words, run, deck):
     if trouble and trouble[0] not in deck:
         return f"a runtime error: {stderr[-400:]}"
     if run.returncode == 2:
-        return fault_of_message(words, stderr)
+        return fault_of_message(names_deck, stderr)
     # A response of a whole turn fails at a speed, without a crank angle; intervals of stability in a range of speeds; a variant whole.
     if run.returncode == 1 and not re.search(r"^d\.deck: error: (.*(crank \S+ deg|, speeds? (\S+ to )?\S+ (rad/s|rpm))|\S+=\S+( \S+=\S+)*): .", stderr,
                                              re.MULTILINE):
@@ -190,27 +194,27 @@ def fault_of_again(program, folder, status, files):
     return None
 
 
-def fault_of_deck(program, folder, words, sound_words, text, again):
-    """Runs one deck in an empty folder; its status and what is wrong."""
+def fault_of_deck(program, folder, words, sound_words, text, table, again):
+    """Runs one deck in an empty folder; its status and what is wrong. `sound_words`: None if nobody knows."""
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
-    for name, content in (("d.deck", text), ("part.deck", PART)):
+    for name, content in (("d.deck", text), ("part.deck", PART), ("t.dat", table)):
         with open(os.path.join(folder, name), "wb") as deck:
             deck.write(content)
     if len(text) % 2:  # results of an earlier run
         os.makedirs(os.path.join(folder, "outputs", "d"))
-        for name in ("mesh.dat", "notes.txt"):
+        for name, content in (("mesh.dat", "old\n"), ("notes.txt", "mine\n"), ("summary.json", EARLIER)):
             with open(os.path.join(folder, "outputs", "d", name), "w", encoding="ascii") as earlier:
-                earlier.write("mine\n")
+                earlier.write(content)
     before = tree(folder)
     deck = text.decode("utf-8", "replace")
-    moves = "motion" in deck.lower()
-    run = execute(program, [word.replace("DECK", "d.deck") for word in words], folder, MOTION_SECONDS if moves else MOST_SECONDS)
-    if moves and run.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+    short = "motion" in deck.lower() or "release" in program
+    run = execute(program, [word.replace("DECK", "d.deck") for word in words], folder, SHORT_SECONDS if short else MOST_SECONDS)
+    if short and run.returncode == 130 and b"interrupted" in run.stderr:  # at the limit of time
         return run.returncode, None
-    fault = fault_of_run(words, run, deck)
+    fault = fault_of_run("DECK" in words and sound_words is not None, run, deck)
     after = tree(folder)
-    if not fault and (run.returncode == 2 or not sound_words) and after != before:
+    if not fault and (run.returncode == 2 or sound_words is False) and after != before:
         fault = f"nothing was to be written, but now there are {' '.join(sorted(set(after) - set(before)))} (or changes)"
     elif not fault and sound_words and run.returncode < 2:
         if after.pop(os.path.join("outputs", "d", "notes.txt"), b"mine\n") != b"mine\n":
@@ -227,28 +231,33 @@ def one(number, seed, program, decks, scratch):
     """Makes and runs deck number so and so."""
     dice = Dice(seed*1000003 + number)
     kind, text = fuzz_decks.made_deck(dice, decks)
+    table = fuzz_decks.table(dice)
     words, sound_words = ["DECK"], True
     if dice.chance(0.12):
         words, sound_words = dice.choice(OPTIONS)
+    elif dice.chance(0.12):
+        words, sound_words = fuzz_decks.words_of_command(dice), None
     folder = os.path.join(scratch, str(os.getpid()))
-    status, fault = fault_of_deck(program, folder, words, sound_words, text, number % ECHO_EVERY == 0)
+    status, fault = fault_of_deck(program, folder, words, sound_words, text, table, number % ECHO_EVERY == 0)
     if fault:
         name = f"seed_{seed}_{number}"
         os.makedirs(FAILED, exist_ok=True)
         with open(os.path.join(FAILED, name + ".deck"), "wb") as deck:
             deck.write(text)
+        with open(os.path.join(FAILED, name + ".dat"), "wb") as file:
+            file.write(table)
         fault = f"{FAILED}/{name}.deck ({kind}; flexmech {' '.join(words)}): {fault}"
         with open(os.path.join(FAILED, name + ".txt"), "w", encoding="utf-8") as reason:
             reason.write(fault + "\n")
     return kind, status, fault
 
 
-def fuzz(count, seed, told):
+def fuzz(kind, count, seed, told):
     """Runs so many decks; `told` hears of every fault. The number of decks by kind and exit status."""
     shutil.rmtree(FAILED, ignore_errors=True)
     scratch = os.path.abspath(os.path.join(FAILED, "scratch"))
     os.makedirs(scratch)
-    work = functools.partial(one, seed=seed, program=os.path.abspath(PROGRAM), decks=fuzz_decks.sources(), scratch=scratch)
+    work = functools.partial(one, seed=seed, program=os.path.abspath(PROGRAMS[kind]), decks=fuzz_decks.sources(), scratch=scratch)
     counts = Counter()
     with multiprocessing.Pool() as pool:
         for kind, status, fault in pool.imap_unordered(work, range(1, count + 1), chunksize=8):
@@ -260,6 +269,8 @@ def fuzz(count, seed, told):
 
 
 def main(words):
+    kind = "release" if "--release" in words else "debug"
+    words = [word for word in words if word != "--release"]
     count, seed = (int(word) for word in (words + ["10000", "1"][len(words):])[:2])
     faults = []
 
@@ -267,7 +278,7 @@ def main(words):
         faults.append(fault)
         print(f"not ok {fault}", flush=True)
 
-    counts = fuzz(count, seed, told)
+    counts = fuzz(kind, count, seed, told)
     kinds = sorted({kind for kind, _ in counts})
     print(f"{'decks of seed ' + str(seed):<20}{'done':>8}{'rows failed':>13}{'refused':>9}")
     for kind in kinds + ["all"]:

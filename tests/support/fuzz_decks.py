@@ -410,6 +410,58 @@ def tame(text):
     return re.sub(rb"(?i)(modes\s+)(\d+)(?![.\d])", at_most(MOST_MODES), text)
 
 
+def with_cards(dice, text):
+    """The deck with some cards more, of any pattern: keys with a value that may be one, or with none; names of the deck."""
+    names = sorted({name for line in re.findall(r"^LINK (.+?)(?: \S+=.*| rigid.*)?$", text.decode(), re.MULTILINE) for name in line.split()})
+    values = names + EXTREMES[:16] + ["10", "0.5", "90deg", "3N", "1,2", "0,1,2", "t.dat", "table", "$half", ""]
+
+    def word(token):
+        if token.endswith("="):
+            return token + dice.choice(values)
+        choices = [token] + token.split("=")[:1] if re.match(r"[a-z]\w*=", token) else token.split("|")
+        return dice.choice(choices + [dice.choice(names or choices), dice.choice(values)])
+
+    cards = []
+    for _ in range(1 + dice.below(3)):
+        form = re.sub(r"[][,]|\.\.\.", " ", dice.choice(dice.choice(language().patterns).split(" or ")))
+        tokens = [token for token in form.split() if token != "|"]
+        card = tokens[:1] + [word(token) for token in tokens[1:] if not dice.chance(0.3)]
+        card += [dice.choice(language().keys) + "=" + dice.choice(values) for _ in range(dice.choice([0, 0, 0, 1, 2]))]
+        cards.append(" ".join(card))
+    return re.sub(rb"END\n$", b"", text) + "\n".join(cards + [""]).encode("utf-8")
+
+
+def table(dice):
+    """What t.dat holds: a force or a torque over a turn, sound or not."""
+    count, unit = dice.choice([2, 3, 5, 9, 200]), dice.choice(["N", "N*m", "deg"])
+    rows = [f"{360.0*i/(count - 1):.9g} {dice.between(-2.0, 2.0):.6g}" for i in range(count - 1)] + ["360 0"]
+    rows[0] = "0 0"
+    text = "\n".join([f"units {dice.choice(['deg', 'deg', 's'])} {unit}"] + rows + [""]).encode()
+    return mutated(dice, text, text) if dice.chance(0.6) else text
+
+
+def with_table(dice, text):
+    """The deck with cards that name t.dat."""
+    link = re.search(rb"^DRIVE (\S+)", text, re.MULTILINE)
+    name = link[1].decode() if link else "crank"
+    cards = [dice.choice([f"TORQUE {name} table=t.dat", f"TORQUE {name} table=t.dat over={name}", f"FORCE {name} 1 0 at=0 table=t.dat",
+                          "LAW feed table=t.dat", f"MOTOR table=t.dat line={dice.below(3)}"]), "REPORT reactions"]
+    return re.sub(rb"END\n$", b"", text) + "\n".join(cards + [""]).encode()
+
+
+def words_of_command(dice):
+    """A command line: options, whole or not, in any order; DECK stands for the deck's path."""
+    options = ["--quiet", "--stats", "--check", "--help", "--help-cards", "--version", "--json", "--resume", "--threads", "--out", "--set", "--format",
+               "--part", "--join", "--time-limit", "--format-only", "--man", "--completion", "--", "-", "-q", "-h"]
+    values = ["DECK", "1", "2", "0", "-1", "1e99", "1/2", "3/2", "csv", "csv-only", "dat", "bash", "x=1", "half=2", "=", "", ".", "/dev/null", "o", "1s", "1h", "0s",
+              "\xe4", "a b", "$(x)", "*"]
+    words = []
+    for _ in range(dice.choice([1, 2, 2, 3, 4, 6])):
+        option = dice.choice(options)
+        words += dice.choice([[option], [option, dice.choice(values)], [option + "=" + dice.choice(values)], [option[:-1]], [dice.choice(values)]])
+    return words + (["DECK"] if dice.chance(0.7) else [])
+
+
 def sources():
     """The decks of the repository, in the order of their names."""
     found = []
@@ -421,14 +473,18 @@ def sources():
 
 
 def made_deck(dice, decks):
-    """One deck and what kind it is: sound, or a mutation of a sound one, of one in inputs/, of a linkage that is no four-bar, of one
-    that is refused."""
+    """One deck and what kind it is: sound, or with cards or a table besides, or a mutation of a sound one, of one in inputs/, of a linkage
+    that is no four-bar, of one that is refused."""
     inputs = [text for folder, text in decks if folder == "inputs"]
     refused = [text for folder, text in decks if folder == REFUSED]
     linkages = [text for folder, text in decks if OTHER_LINKAGE.search(text) and folder != REFUSED]
     kind, share = "sound", dice.random()
-    if share < 0.4:
+    if share < 0.2:
         text = sound_deck(dice)
+    elif share < 0.32:
+        kind, text = "sound, other cards", with_cards(dice, sound_deck(dice))
+    elif share < 0.4:
+        kind, text = "sound, a table", with_table(dice, sound_deck(dice))
     elif share < 0.7:
         kind, text = "sound, mutated", mutated(dice, sound_deck(dice), dice.choice(inputs))
     elif share < 0.8:
