@@ -60,17 +60,20 @@ as_somebody() {
   "$@" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
 }
 
-# interrupted SIGNAL OUT DECK OPTION...: a run that is sent a signal after a second, and is told to have taken it. Shells start their
-# background jobs deaf to SIGINT, so it is made to hear again.
+# python3 -c "$hearing" COMMAND...: a command that hears signals. Shells start their background jobs deaf to SIGINT, nohup to SIGHUP.
+hearing='import os, signal, sys
+for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM, signal.SIGXCPU):
+    signal.signal(number, signal.SIG_DFL)
+os.execvp(sys.argv[1], sys.argv[1:])'
+export hearing
+
+# interrupted SIGNAL OUT DECK OPTION...: a run that is sent a signal after a second, and is told to have taken it.
 interrupted() {
   cat >"$scratch/job.sh" <<'END_OF_JOB'
 signal=$1
 told=$2
 shift 2
-python3 -c 'import os, signal, sys
-for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM, signal.SIGXCPU):
-    signal.signal(number, signal.SIG_DFL)
-os.execvp(sys.argv[1], sys.argv[1:])' "$@" 2>"$told" &
+python3 -c "$hearing" "$@" 2>"$told" &
 sleep 1
 # Where the run is to leave a journal, not before there is one.
 for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do

@@ -21,13 +21,12 @@ killed() {
 # killed_after SECONDS SIGNAL OUT DECK OPTION...: likewise, the seconds after the first bytes of the journal.
 killed_after() {
   cat >"$scratch/kill.sh" <<'END_OF_JOB'
-set -m
 signal=$1
 journal=$2
 told=$3
 growth=$4
 shift 4
-"$@" 2>"$told" &
+python3 -c "$hearing" "$@" 2>"$told" &
 tries=0
 while [ ! -s "$journal" ] && kill -0 $! && [ $tries -lt 1000 ]; do
   sleep 0.02
