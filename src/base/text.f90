@@ -9,8 +9,8 @@ module text
 
   public :: string_t, to_string, word_list, trimmed_list, joined, plural, lower_case, upper_case, &
     same_word
-  public :: append_string, has_word, character_count, character_length, is_continuation_byte, &
-    in_single_quotes, visible, replacement
+  public :: append_string, has_word, is_among, character_count, character_length, &
+    is_continuation_byte, in_single_quotes, visible, replacement
 
   !> In place of bytes that are no text: U+FFFD.
   character(len=*), parameter :: replacement = char(239)//char(191)//char(189)
@@ -259,6 +259,20 @@ contains
       has = has .or. same_word(list(i)%text, word)
     end do
   end function has_word
+
+  !> Whether a list has a text, letter by letter.
+  pure function is_among(list, text) result(any_is)
+    type(string_t), intent(in) :: list(:)
+    character(len=*), intent(in) :: text
+    logical :: any_is
+
+    integer :: i
+
+    any_is = .false.
+    do i = 1, size(list)
+      any_is = any_is .or. list(i)%text == text
+    end do
+  end function is_among
 
   !> Splits `"a b c"` into a list of texts.
   pure function word_list(words) result(list)

@@ -12,7 +12,7 @@ module output_folders
   use folder_locks, only: leave_lock, lock_t, take_lock
   use json_text, only: json_value
   use program_version, only: program_name
-  use text, only: append_string, string_t
+  use text, only: append_string, is_among, string_t
   implicit none (type, external)
   private
 
@@ -120,7 +120,7 @@ contains
     do i = 1, size(names)
       call refuse_name(folder, names(i)%text, inputs, error)
       if (allocated(error)) return
-      if (has_name(earlier, names(i)%text)) cycle
+      if (is_among(earlier, names(i)%text)) cycle
       if (file_exists(joined_path(folder%path, names(i)%text))) call set_error(error, &
         error_of_files, "a file is to be written there, and this one is not of an earlier run "// &
         "of the deck: move it, or choose another folder with --out", joined_path(folder%path, &
@@ -197,7 +197,7 @@ contains
       call names_of_summary(joined_path(finished, previous_name), path, earlier)
       call names_of_summary(joined_path(finished, summary_name), path, of_run)
       do i = 1, size(earlier)
-        if (.not. has_name(of_run, earlier(i)%text)) call remove_file(joined_path(path, &
+        if (.not. is_among(of_run, earlier(i)%text)) call remove_file(joined_path(path, &
           earlier(i)%text))
       end do
       call find_matching_files(finished, "", names)
@@ -257,18 +257,6 @@ contains
     call append_string(names, log_name)
     call append_string(names, summary_name)
   end subroutine names_of_summary
-
-  pure logical function has_name(names, name)
-    type(string_t), intent(in) :: names(:)
-    character(len=*), intent(in) :: name
-
-    integer :: i
-
-    has_name = .false.
-    do i = 1, size(names)
-      has_name = has_name .or. names(i)%text == name
-    end do
-  end function has_name
 
   !> Lets the lock go.
   subroutine leave_folder(folder)

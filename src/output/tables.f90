@@ -10,7 +10,7 @@ module tables
   use numbers, only: write_shortest
   use output_files, only: append_output, close_output, finish_output, open_output, output_file_t
   use table_rows, only: item_failure, item_gap, item_row, next_item, row_item_t, rows_t
-  use text, only: string_t, to_string
+  use text, only: is_among, string_t, to_string
   implicit none (type, external)
   private
 
@@ -213,20 +213,6 @@ contains
     call append_plain(table, "#"//names(2:)//line_feed//"#"//units(2:)//line_feed)
     if (table%has_csv) call append_output(table%csv, fields//"failure"//csv_line_end)
   end subroutine write_header
-
-  !> Whether a list has a text.
-  pure function is_among(list, text) result(any_is)
-    type(string_t), intent(in) :: list(:)
-    character(len=*), intent(in) :: text
-    logical :: any_is
-
-    integer :: i
-
-    any_is = .false.
-    do i = 1, size(list)
-      any_is = any_is .or. list(i)%text == text
-    end do
-  end function is_among
 
   !> The first line of a table, also of a deck without title.
   pure function title_line(title) result(line)
