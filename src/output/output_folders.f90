@@ -113,12 +113,21 @@ contains
                                                        !! its tables
     type(error_t), allocatable, intent(inout) :: error !! as it was if there is none
 
-    type(string_t), allocatable :: earlier(:)
+    type(string_t), allocatable :: earlier(:), places(:)
+    character(len=:), allocatable :: home
     integer :: i
 
+    allocate (places(0))
+    do i = 1, size(inputs)
+      ! A link is replaced itself, not what it leads to; but it, too, is the user's.
+      call append_string(places, joined_path(real_path(folder_name(inputs(i)%text)), &
+        file_name(inputs(i)%text)))
+      call append_string(places, real_path(inputs(i)%text))
+    end do
+    home = real_path(folder%path)
     call names_of_summary(joined_path(folder%path, summary_name), folder%path, earlier)
     do i = 1, size(names)
-      call refuse_name(folder, names(i)%text, inputs, error)
+      call refuse_name(names(i)%text)
       if (allocated(error)) return
       if (is_among(earlier, names(i)%text)) cycle
       if (file_exists(joined_path(folder%path, names(i)%text))) call set_error(error, &
@@ -127,39 +136,36 @@ contains
         names(i)%text))
     end do
     do i = 1, size(journals)
-      call refuse_name(folder, journals(i)%text, inputs, error)
+      call refuse_name(journals(i)%text)
     end do
+
+  contains
+
+    subroutine refuse_name(name)
+      character(len=*), intent(in) :: name
+
+      character(len=:), allocatable :: path
+      integer :: k
+
+      if (allocated(error)) return
+      path = joined_path(folder%path, name)
+      if (is_directory(path)) then
+        call set_error(error, error_of_files, "this is a folder, and a file is to be written "// &
+          "there", path)
+      else if (file_exists(path) .and. .not. is_plain_file(path)) then
+        call set_error(error, error_of_files, "this is a pipe or a device, and a file is to be "// &
+          "written there", path)
+      end if
+      do k = 1, size(places)
+        if (places(k)%text /= joined_path(home, name)) cycle
+        call set_error(error, error_of_files, "this file belongs to the deck, and a result of "// &
+          "its name is to be written there: rename it, or choose another folder with --out", &
+          inputs((k + 1)/2)%text)
+        return
+      end do
+    end subroutine refuse_name
+
   end subroutine refuse_names
-
-  subroutine refuse_name(folder, name, inputs, error)
-    type(output_folder_t), intent(in) :: folder
-    character(len=*), intent(in) :: name
-    type(string_t), intent(in) :: inputs(:)
-    type(error_t), allocatable, intent(inout) :: error
-
-    character(len=:), allocatable :: path, where
-    integer :: i
-
-    if (allocated(error)) return
-    path = joined_path(folder%path, name)
-    if (is_directory(path)) then
-      call set_error(error, error_of_files, "this is a folder, and a file is to be written there", &
-        path)
-    else if (file_exists(path) .and. .not. is_plain_file(path)) then
-      call set_error(error, error_of_files, "this is a pipe or a device, and a file is to be "// &
-        "written there", path)
-    end if
-    where = joined_path(real_path(folder%path), name)
-    do i = 1, size(inputs)
-      ! A link is replaced itself, not what it leads to; but it, too, is the user's.
-      if (joined_path(real_path(folder_name(inputs(i)%text)), file_name(inputs(i)%text)) /= where &
-        .and. real_path(inputs(i)%text) /= where) cycle
-      call set_error(error, error_of_files, "this file belongs to the deck, and a result of "// &
-        "its name is to be written there: rename it, or choose another folder with --out", &
-        inputs(i)%text)
-      return
-    end do
-  end subroutine refuse_name
 
   !> Puts the files of the run's own folder in place, and removes those of an earlier run that are
   !! not among them. Errors: it cannot be done; what has begun is carried out by the next run.
@@ -201,14 +207,14 @@ contains
           earlier(i)%text))
       end do
       call find_matching_files(finished, "", names)
-      call append_string(names, summary_name)
       do i = 1, size(names)
         if (allocated(error)) return
-        if (names(i)%text == previous_name .or. (names(i)%text == summary_name .and. &
-          i < size(names))) cycle
+        if (names(i)%text == previous_name .or. names(i)%text == summary_name) cycle
         call move_file(joined_path(finished, names(i)%text), joined_path(path, names(i)%text), &
           error)
       end do
+      if (.not. allocated(error)) call move_file(joined_path(finished, summary_name), &
+        joined_path(path, summary_name), error)
     end if
     if (.not. allocated(error)) call remove_directory(finished)
   end subroutine carry_out
