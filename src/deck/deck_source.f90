@@ -87,8 +87,8 @@ contains
     type(source_t), intent(out) :: source
     type(error_t), allocatable, intent(out) :: error
 
-    source = source_from_text(path, text)
     if (reason == "") then
+      source = source_from_text(path, text)
       call find_binary(source, error)
     else
       call set_error(error, error_of_files, reason, path)
