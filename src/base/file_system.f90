@@ -6,7 +6,8 @@ module file_system
   use kinds, only: long
   use system_calls, only: c_clearerr, c_closedir, c_errno, c_fclose, c_fdopen, c_ferror, c_fopen, &
     c_fread, c_fseek, c_glob, c_globfree, c_isatty, c_mkdir, c_mkdtemp, c_opendir, c_realpath, &
-    c_rename, c_rmdir, c_strerror, c_strlen, c_truncate, c_unlink, glob_t
+    c_rename, c_rmdir, c_strerror, c_strlen, c_truncate, c_unlink, glob_t, interrupted_call, &
+    no_entry, not_allowed, read_only
   use text, only: append_string, string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   implicit none (type, external)
@@ -45,7 +46,6 @@ contains
     character(len=*), intent(in) :: path !! absolute or from the working folder
     logical :: is
 
-    integer(c_int), parameter :: not_allowed = 13_c_int, read_only = 30_c_int ! EACCES, EROFS
     integer(c_int), parameter :: from_end = 2_c_int
     type(c_ptr) :: stream
 
@@ -72,9 +72,13 @@ contains
     character(len=:), allocatable :: text
 
     character(kind=c_char), pointer :: characters(:)
+    integer :: i
 
     call c_f_pointer(string, characters, [c_strlen(string)])
-    text = text_of(characters)
+    text = repeat(" ", size(characters))
+    do i = 1, size(characters)
+      text(i:i) = characters(i)
+    end do
   end function string_of
 
   !> Makes a folder and all missing folders above it. If it is not made, `system_reason` says why.
@@ -115,16 +119,9 @@ contains
     character(len=:), allocatable, intent(out) :: path     !! of the folder
     logical, intent(out) :: made
 
-    character(kind=c_char) :: characters(len(beginning) + 7)
-    integer :: i
-
-    path = beginning//"XXXXXX"
-    do i = 1, len(path)
-      characters(i) = path(i:i)
-    end do
-    characters(len(path) + 1) = c_null_char
-    made = c_associated(c_mkdtemp(characters))
-    path = text_of(characters(:len(path)))
+    path = beginning//"XXXXXX"//c_null_char
+    made = c_associated(c_mkdtemp(path))
+    path = path(:len(path) - 1)
   end subroutine make_own_directory
 
   !> Renames a file or a folder; a file of the new name is replaced. If it is not done,
@@ -213,7 +210,6 @@ contains
     character(len=:), allocatable, intent(out), optional :: reason !! why it cannot be read; empty
                                                                    !! if it is
 
-    integer(c_int), parameter :: no_entry = 2_c_int ! ENOENT
     character(len=:), allocatable :: why
     type(c_ptr) :: stream
     integer(c_int) :: status
@@ -255,7 +251,6 @@ contains
     character(len=:), allocatable, intent(out) :: text, reason
 
     integer, parameter :: most_bytes = 500000000
-    integer(c_int), parameter :: interrupted_call = 4_c_int ! EINTR
     character(kind=c_char, len=8192) :: piece
     type(text_buffer_t) :: buffer
     integer :: length
@@ -292,17 +287,6 @@ contains
       text = text//words(i:i)
     end do
   end function escaped
-
-  pure function text_of(characters) result(text)
-    character(kind=c_char), intent(in) :: characters(:)
-    character(len=size(characters)) :: text
-
-    integer :: i
-
-    do i = 1, size(characters)
-      text(i:i) = characters(i)
-    end do
-  end function text_of
 
   !> The last part of a path without its last extension: `inputs/one.deck` gives `one`.
   pure function base_name(path) result(name)
@@ -354,18 +338,11 @@ contains
     character(len=*), intent(in) :: path !! of a file or folder
     character(len=:), allocatable :: absolute
 
-    integer, parameter :: longest = 8192
-    character(kind=c_char) :: resolved(longest)
-    integer :: i, length
+    character(kind=c_char, len=8192) :: resolved
 
     absolute = ""
-    resolved = c_null_char
-    if (.not. c_associated(c_realpath(path//c_null_char, resolved))) return
-    length = findloc(resolved, c_null_char, dim=1) - 1
-    absolute = repeat(" ", length)
-    do i = 1, length
-      absolute(i:i) = resolved(i)
-    end do
+    if (c_associated(c_realpath(path//c_null_char, resolved))) absolute = &
+      resolved(:index(resolved, c_null_char) - 1)
   end function real_path
 
   !> Whether standard error is a terminal, not a file or a pipe.

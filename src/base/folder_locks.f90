@@ -8,7 +8,7 @@ module folder_locks
   use file_system, only: read_text, remove_file, system_reason
   use kinds, only: long
   use system_calls, only: c_errno, c_fclose, c_fflush, c_fileno, c_flock, c_fopen, c_getpid, &
-    c_gethostname, c_fwrite
+    c_gethostname, c_fwrite, try_again
   use text, only: to_string
   implicit none (type, external)
   private
@@ -32,7 +32,7 @@ contains
     character(len=:), allocatable, intent(out) :: reason !! of the system, if it is not taken and
                                                          !! nobody has it
 
-    integer(c_int), parameter :: exclusive = 2_c_int, at_once = 4_c_int, would_wait = 11_c_int
+    integer(c_int), parameter :: exclusive = 2_c_int, at_once = 4_c_int
     integer, parameter :: most_tries = 100
     character(len=:), allocatable :: own, words
     integer :: try
@@ -53,7 +53,7 @@ contains
       lock%is_sure = .true.
       if (c_flock(c_fileno(lock%stream), ior(exclusive, at_once)) /= 0) then
         lock%is_sure = .false.
-        if (c_errno() == would_wait) then
+        if (c_errno() == try_again) then
           call read_text(path, words)
           holder = holder_of(words)
           status = c_fclose(lock%stream)
@@ -91,21 +91,14 @@ contains
   function own_name() result(name)
     character(len=:), allocatable :: name
 
-    character(kind=c_char) :: host(257)
-    character(len=24) :: ticks
+    character(kind=c_char, len=257) :: host
     integer(long) :: now
-    integer :: i
 
-    host = c_null_char
-    if (c_gethostname(host, 256_c_size_t) /= 0) host(1) = c_null_char
+    host = repeat(c_null_char, len(host))
+    if (c_gethostname(host, 256_c_size_t) /= 0) host(1:1) = c_null_char
     call system_clock(now)
-    write (ticks, "(i0)") now
-    name = "process "//to_string(int(c_getpid()))//" on "
-    do i = 1, size(host)
-      if (host(i) == c_null_char) exit
-      name = name//host(i)
-    end do
-    name = name//", "//trim(ticks)
+    name = "process "//to_string(int(c_getpid()))//" on "//host(:index(host, c_null_char) - 1)// &
+      ", "//to_string(now)
   end function own_name
 
   !> The last line of a lock's file without what makes it unique.

@@ -5,7 +5,8 @@ module standard_output
   use file_system, only: system_reason
   use kinds, only: wp
   use pauses, only: pause_for
-  use system_calls, only: c_close, c_errno, c_write
+  use system_calls, only: c_close, c_errno, c_write, interrupted_call, no_reader, not_open, &
+    try_again
   implicit none (type, external)
   private
 
@@ -13,8 +14,9 @@ module standard_output
 
   integer(c_int), parameter :: descriptor = 1_c_int
 
-  !> EINTR, EAGAIN; EPIPE and EBADF: there is nobody who reads.
-  integer(c_int), parameter :: once_more(*) = [4_c_int, 11_c_int], nobody(*) = [32_c_int, 9_c_int]
+  !> When to write again, and when there is nobody who reads.
+  integer(c_int), parameter :: once_more(*) = [interrupted_call, try_again], nobody(*) = &
+    [no_reader, not_open]
 
 contains
 

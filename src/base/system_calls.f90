@@ -11,6 +11,11 @@ module system_calls
     c_rmdir, c_sched_yield, c_siginterrupt, c_signal, c_strerror, c_strlen, c_truncate, c_unlink, &
     c_usleep, c_write
 
+  !> Values of `errno` on Linux: ENOENT, EINTR, EBADF, EAGAIN (EWOULDBLOCK), EACCES, EROFS, EPIPE.
+  integer(c_int), parameter, public :: no_entry = 2_c_int, interrupted_call = 4_c_int, &
+    not_open = 9_c_int, try_again = 11_c_int, not_allowed = 13_c_int, read_only = 30_c_int, &
+    no_reader = 32_c_int
+
   !> The result of `glob`, as the C libraries of Linux have it: its members of POSIX, and more
   !! room than their own ones need.
   type, bind(c) :: glob_t
