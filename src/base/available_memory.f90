@@ -65,8 +65,9 @@ contains
 
     real(wp) :: room
 
-    room = 0.5_wp*address_space()/(stack_size + heap_size)
     threads_in_memory = threads
+    if (threads == 1) return
+    room = 0.5_wp*address_space()/(stack_size + heap_size)
     if (room < threads - 1) threads_in_memory = 1 + int(room)
   end function threads_in_memory
 
