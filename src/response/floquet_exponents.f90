@@ -16,6 +16,7 @@ module floquet_exponents
   use elastic_equations, only: add_damping_parts, elastic_terms_t, equation_parts
   use errors, only: error_t
   use fourier_transform, only: fourier_plan_t
+  use interruption, only: was_interrupted
   use kinds, only: wp
   use periodic_solver, only: add_slow, complete_solution, slow_part
   use quadratic_pencil, only: find_pencil_modes
@@ -321,6 +322,8 @@ contains
       here = followed
       if (present(pair)) pair%exponent = [followed, followed_partner]
       if (space%is_harmonic .and. .not. (is_damped .and. present(pair))) call take_value_of_form
+      ! On long runs a mode takes a second.
+      if (was_interrupted()) exit
       call find_residual(here, weights, residual)
       call approximate(residual, correction)
       error = doubt()
