@@ -5,16 +5,16 @@ module output_files
   use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_null_char, c_null_ptr, c_ptr, &
     c_size_t
   use errors, only: error_of_files, error_t, set_error
-  use file_system, only: joined_path, system_reason
-  use system_calls, only: c_fclose, c_fopen, c_fwrite
+  use file_system, only: system_reason
+  use system_calls, only: c_fclose, c_fflush, c_fopen, c_fwrite
   use text_buffer, only: append_text, text_buffer_t
   implicit none (type, external)
   private
 
-  public :: output_file_t, open_output, append_output, finish_output, close_output
+  public :: output_file_t, open_output, append_output, pass_on_output, is_failing, finish_output, &
+    close_output
 
   type :: output_file_t
-    character(len=:), allocatable, private :: path
     type(c_ptr), private :: stream = c_null_ptr
     character(len=:), allocatable, private :: reason !! why a write has failed
     type(text_buffer_t), private :: buffer           !! text not yet written
@@ -25,16 +25,19 @@ module output_files
 contains
 
   !> Opens a file. Errors: it cannot be opened.
-  subroutine open_output(folder, name, file, error)
-    character(len=*), intent(in) :: folder           !! existing
-    character(len=*), intent(in) :: name             !! within the folder
+  subroutine open_output(path, file, error, at_end)
+    character(len=*), intent(in) :: path             !! in an existing folder
     type(output_file_t), intent(out) :: file         !! ready for text
     type(error_t), allocatable, intent(out) :: error !! allocated if the file cannot be opened
+    logical, intent(in), optional :: at_end          !! behind what is there; absent: in its place
 
-    file%path = joined_path(folder, name)
-    file%stream = c_fopen(file%path//c_null_char, "w"//c_null_char)
+    character :: mode
+
+    mode = "w"
+    if (present(at_end)) mode = merge("a", "w", at_end)
+    file%stream = c_fopen(path//c_null_char, mode//c_null_char)
     if (.not. c_associated(file%stream)) call set_error(error, error_of_files, &
-      "this file cannot be written: "//system_reason(), file%path)
+      "this file cannot be written: "//system_reason(), path)
   end subroutine open_output
 
   !> Appends text as it is. A failure is reported by `finish_output`.
@@ -57,6 +60,23 @@ contains
     if (c_fwrite(file%buffer%storage(:bytes), 1_c_size_t, bytes, file%stream) /= bytes) &
       file%reason = system_reason()
   end subroutine write_buffer
+
+  !> Passes all text to the system: a run that is killed later leaves it.
+  subroutine pass_on_output(file)
+    type(output_file_t), intent(inout) :: file !! open
+
+    call write_buffer(file)
+    if (allocated(file%reason)) return
+    if (c_fflush(file%stream) /= 0_c_int) file%reason = system_reason()
+  end subroutine pass_on_output
+
+  !> Whether something could not be written; `finish_output` says why.
+  pure function is_failing(file) result(is)
+    type(output_file_t), intent(in) :: file
+    logical :: is
+
+    is = allocated(file%reason)
+  end function is_failing
 
   !> Writes the rest of the buffer and closes the file. Errors: not all bytes were taken.
   subroutine finish_output(file, place, error)

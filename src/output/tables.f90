@@ -63,9 +63,10 @@ contains
     if (present(csv_only)) table%has_plain = .not. (has_csv .and. csv_only)
     allocate (table%parameters(0), table%parameter_values(0))
     table%first_cells = ""
-    if (table%has_plain) call open_output(folder, name//".dat", table%plain, error)
-    if (has_csv .and. .not. allocated(error)) call open_output(folder, name//".csv", table%csv, &
-      error)
+    if (table%has_plain) call open_output(joined_path(folder, name//".dat"), &
+      table%plain, error)
+    if (has_csv .and. .not. allocated(error)) call open_output( &
+      joined_path(folder, name//".csv"), table%csv, error)
   end subroutine open_table
 
   !> Begins the rows of a variant, with its parameters in their first columns.

@@ -90,9 +90,10 @@ contains
         if (allocated(error)) return
         outputs%tables(i)%has_blocks = outputs%kinds(i)%has_blocks
       end do
-      call open_output(own, echo_name, outputs%echo, error)
-      if (.not. allocated(error)) call open_output(own, log_name, outputs%log, error)
-      if (.not. allocated(error)) call open_output(own, summary_name, outputs%summary, error)
+      call open_output(joined_path(own, echo_name), outputs%echo, error)
+      if (.not. allocated(error)) call open_output(joined_path(own, log_name), outputs%log, error)
+      if (.not. allocated(error)) call open_output(joined_path(own, summary_name), &
+        outputs%summary, error)
     end associate
   end subroutine open_outputs
 

@@ -10,7 +10,7 @@ module deck_runs
   use deck_summary, only: summary_text
   use diagnostics, only: diagnostics_t, warnings_of, diagnostic_t
   use echo, only: echo_text
-  use errors, only: error_of_files, error_of_interruption, error_of_numerics, error_t, set_error
+  use errors, only: error_of_interruption, error_of_numerics, error_t, set_error
   use file_system, only: file_name, joined_path
   use findings_texts, only: failure_text, findings_log, findings_messages
   use interruption, only: was_interrupted, was_out_of_time
@@ -31,7 +31,7 @@ module deck_runs
   use study_requests, only: motion_instants_of
   use success_text, only: text_of_success
   use tables, only: column_t, real_column
-  use task_journal, only: begun, close_journal, journal_t, keeps_tasks, open_journal, &
+  use task_journal, only: close_journal, journal_t, keeps_tasks, open_journal, &
     publish_journal, remove_journal
   use text, only: append_string, plural, string_t, to_string
   use text_buffer, only: text_buffer_t
@@ -197,8 +197,7 @@ contains
       call open_part(folder, name, inputs, session%outputs, error)
       if (allocated(error)) return
       call open_journal(folder, title, options%resume, session%journal, blocks, name)
-      if (.not. keeps_tasks(session%journal)) call set_error(error, error_of_files, &
-        "this file cannot be written", joined_path(folder, name)//begun)
+      if (.not. keeps_tasks(session%journal)) error = session%journal%error
       return
     end if
     if (options%join) then
@@ -465,7 +464,6 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     integer :: blocks
-    logical :: done
 
     ! Checked once, before files are put in place: afterwards the run counts as done.
     if (was_interrupted()) then
@@ -475,10 +473,7 @@ contains
       return
     end if
     if (options%part%count > 0) then
-      call publish_journal(session%journal, done)
-      if (.not. done) call set_error(error, error_of_files, &
-        "the part could not be written completely; is the disk full?", &
-        joined_path(session%outputs%folder%path, part_name(deck%base, options%part)))
+      call publish_journal(session%journal, error)
       return
     end if
     call write_texts(session%outputs, echo_text(deck%model), log_text(deck, session), &

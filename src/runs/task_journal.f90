@@ -8,8 +8,12 @@
 !! used.
 module task_journal
   use byte_streams, only: get_integers, put_integers
-  use file_system, only: file_exists, joined_path, remove_file, rename_file, shorten_file
+  use errors, only: error_of_files, error_t, set_error
+  use file_system, only: file_exists, joined_path, remove_file, rename_file, shorten_file, &
+    system_reason
   use kinds, only: long, wp
+  use output_files, only: append_output, close_output, finish_output, is_failing, open_output, &
+    output_file_t, pass_on_output
   use sorting, only: ascending_order
   use text, only: append_string, string_t
   use text_buffer, only: text_buffer_t
@@ -47,9 +51,9 @@ module task_journal
   type :: journal_t
     character(len=:), allocatable, private :: path
     character(len=:), allocatable, private :: title !! deck and program
-    integer, private :: unit = -1
-    logical, private :: is_open = .false.
-    logical, private :: broken = .false.            !! it could not be written; the run continues
+    type(output_file_t), private :: file            !! to which tasks are added
+    logical, private :: is_open = .false.           !! `file`
+    type(error_t), allocatable :: error             !! why it could not be opened; the run continues
                                                     !! without it
     logical, private :: stays = .false.             !! it is a result: tasks of the shortest run are
                                                     !! kept, too
@@ -61,11 +65,11 @@ module task_journal
     integer, private :: last = 0                    !! block that was found last
     integer, private :: kept = 0                    !! blocks of this run
     integer(long), private :: first = 0_long        !! place of the first block
-    integer(long), private :: next = 0_long         !! place of the next byte
     integer(long), private :: clock = 0_long        !! ticks at the start of the run, or when bytes
                                                     !! were last passed on
     type(string_t), allocatable, private :: files(:) !! paths of complete journals of other runs
-    integer, private :: open_file = 0               !! number of the one that is open; 0: none
+    integer, private :: open_file = -1              !! number of the one that is read; 0: the
+                                                    !! journal itself; -1: none
     integer, private :: reader = -1                 !! its unit
   end type journal_t
 
@@ -166,28 +170,32 @@ contains
     is_title = len(title) == len(journal%title) .and. title == journal%title
   end function is_title
 
-  !> Finds the complete blocks of a journal. Bytes after the last of them will be overwritten.
+  !> Finds the complete blocks of a journal. Bytes after the last of them are cut off.
   subroutine read_journal(journal, blocks)
     type(journal_t), intent(inout) :: journal
     integer, intent(out) :: blocks
 
     character(len=:), allocatable :: title
-    integer :: status
+    integer(long) :: next
+    integer :: unit, status
 
     blocks = 0
-    open (newunit=journal%unit, file=journal%path, status="old", action="readwrite", &
-      access="stream", form="unformatted", iostat=status)
+    open (newunit=unit, file=journal%path, status="old", action="read", access="stream", &
+      form="unformatted", iostat=status)
     if (status /= 0) return
-    call read_title_of(journal%unit, title)
-    if (is_title(journal, title)) then
-      journal%is_open = .true.
-      inquire (unit=journal%unit, pos=journal%first)
-      call read_blocks(journal, journal%unit, 0, journal%next)
+    call read_title_of(unit, title)
+    journal%is_open = is_title(journal, title)
+    if (journal%is_open) then
+      inquire (unit=unit, pos=journal%first)
+      call read_blocks(journal, unit, 0, next)
       blocks = journal%blocks
     else
-      close (journal%unit)
       blocks = -1
     end if
+    close (unit)
+    if (.not. journal%is_open) return
+    call shorten_file(journal%path, next - 1)
+    call open_output(journal%path, journal%file, journal%error, at_end=.true.)
   end subroutine read_journal
 
   !> Takes the blocks of a complete journal of another run, which is only read.
@@ -372,14 +380,15 @@ contains
     integer, intent(in) :: file  !! its number; 0: the journal itself
     integer, intent(out) :: unit !! an error of opening shows when it is read
 
+    character(len=:), allocatable :: path
     integer :: status
 
-    unit = journal%unit
-    if (file == 0) return
     if (journal%open_file /= file) then
-      if (journal%open_file > 0) close (journal%reader)
-      open (newunit=journal%reader, file=journal%files(file)%text, status="old", action="read", &
-        access="stream", form="unformatted", iostat=status)
+      call close_reader(journal)
+      path = journal%path
+      if (file > 0) path = journal%files(file)%text
+      open (newunit=journal%reader, file=path, status="old", action="read", access="stream", &
+        form="unformatted", iostat=status)
       journal%open_file = file
     end if
     unit = journal%reader
@@ -394,14 +403,14 @@ contains
     integer(long) :: now, rate
 
     keeps = .false.
-    if (journal%broken .or. journal%only_read .or. .not. allocated(journal%path)) return
+    if (journal%only_read .or. .not. allocated(journal%path)) return
     if (.not. journal%is_open) then
       call system_clock(now, rate)
       if (.not. journal%stays .and. &
         real(now - journal%clock, wp) < least_time*real(rate, wp)) return
       call begin_journal(journal)
     end if
-    keeps = .not. journal%broken
+    keeps = .not. (allocated(journal%error) .or. is_failing(journal%file))
   end function keeps_tasks
 
   !> Appends the bytes of a task. If they cannot be written, the run continues without a journal.
@@ -412,35 +421,30 @@ contains
 
     type(text_buffer_t) :: mark
     integer(long) :: now, rate
-    integer :: status
 
     if (.not. keeps_tasks(journal)) return
     call put_integers(mark, [task, bytes%length, checksum_of(bytes%storage(:bytes%length))])
-    write (journal%unit, pos=journal%next, iostat=status) mark%storage(:mark%length), &
-      bytes%storage(:bytes%length), mark%storage(:mark%length)
-    journal%broken = status /= 0
-    if (journal%broken) return
-    journal%next = journal%next + 2*mark%length + bytes%length
+    call append_output(journal%file, mark%storage(:mark%length))
+    call append_output(journal%file, bytes%storage(:bytes%length))
+    call append_output(journal%file, mark%storage(:mark%length))
     journal%kept = journal%kept + 1
     call system_clock(now, rate)
     if (real(now - journal%clock, wp) < flush_time*real(rate, wp)) return
-    flush (journal%unit, iostat=status)
+    call pass_on_output(journal%file)
     journal%clock = now
   end subroutine keep_task
 
   subroutine begin_journal(journal)
     type(journal_t), intent(inout) :: journal
 
-    integer :: status
+    type(text_buffer_t) :: head
 
-    open (newunit=journal%unit, file=journal%path, status="replace", action="readwrite", &
-      access="stream", form="unformatted", iostat=status)
-    journal%is_open = status == 0
-    if (status == 0) write (journal%unit, iostat=status) len(journal%title), journal%title
-    journal%broken = status /= 0
-    if (.not. journal%is_open) return
-    inquire (unit=journal%unit, pos=journal%first)
-    journal%next = journal%first
+    journal%is_open = .true.
+    call open_output(journal%path, journal%file, journal%error)
+    if (allocated(journal%error)) return
+    call put_integers(head, [len(journal%title)])
+    journal%first = head%length + len(journal%title) + 1
+    call append_output(journal%file, head%storage(:head%length)//journal%title)
   end subroutine begin_journal
 
   !> Closes the journal of an interrupted run.
@@ -449,60 +453,60 @@ contains
     integer, intent(out) :: blocks            !! in it for a run that resumes; 0: nothing to resume
                                               !! from
 
+    type(error_t), allocatable :: error
     integer(long) :: bytes
-    integer :: status
 
     blocks = 0
-    call close_files(journal)
-    if (.not. journal%is_open) return
-    close (journal%unit, iostat=status)
+    call close_reader(journal)
+    if (.not. journal%is_open .or. allocated(journal%error)) return
+    call finish_output(journal%file, journal%path, error)
     journal%is_open = .false.
-    if (status == 0 .and. .not. journal%broken) blocks = journal%blocks + journal%kept
+    if (.not. allocated(error)) blocks = journal%blocks + journal%kept
     ! On a full disk there may be a file without a block.
     inquire (file=journal%path, size=bytes)
     if (bytes < journal%first) call remove_file(journal%path)
   end subroutine close_journal
 
   !> Puts a journal that stays in place, complete.
-  subroutine publish_journal(journal, done)
+  !!
+  !! Errors: not all of it is on the disk, or it cannot be renamed.
+  subroutine publish_journal(journal, error)
     type(journal_t), intent(inout) :: journal !! with all tasks
-    logical, intent(out) :: done              !! false: not all of it is on the disk, or it cannot
-                                              !! be renamed
+    type(error_t), allocatable, intent(out) :: error
 
-    integer(long) :: bytes
-    integer :: status
+    character(len=:), allocatable :: path
+    logical :: done
 
-    call close_files(journal)
-    done = journal%is_open .and. .not. journal%broken
-    if (.not. done) return
-    close (journal%unit, iostat=status)
+    call close_reader(journal)
+    path = journal%path(:len(journal%path) - len(begun))
+    if (allocated(journal%error)) then
+      error = journal%error
+      return
+    end if
+    call finish_output(journal%file, path, error)
     journal%is_open = .false.
-    inquire (file=journal%path, size=bytes)
-    ! Behind the last block there may be one that was cut off.
-    if (bytes >= journal%next) call shorten_file(journal%path, journal%next - 1)
-    inquire (file=journal%path, size=bytes)
-    done = status == 0 .and. bytes == journal%next - 1
-    if (done) call rename_file(journal%path, journal%path(:len(journal%path) - len(begun)), done)
+    if (allocated(error)) return
+    call rename_file(journal%path, path, done)
+    if (.not. done) call set_error(error, error_of_files, "the file cannot be put in place: "// &
+      system_reason(), path)
   end subroutine publish_journal
 
   !> Closes and deletes the journal of a finished run.
   subroutine remove_journal(journal)
     type(journal_t), intent(inout) :: journal !! opened, or not begun
 
-    integer :: status
-
-    call close_files(journal)
-    if (journal%is_open) close (journal%unit, iostat=status)
+    call close_reader(journal)
+    call close_output(journal%file)
     journal%is_open = .false.
     if (allocated(journal%path)) call remove_file(journal%path)
   end subroutine remove_journal
 
-  !> Closes the file of another run that is open.
-  subroutine close_files(journal)
+  !> Closes the file that is read.
+  subroutine close_reader(journal)
     type(journal_t), intent(inout) :: journal
 
-    if (journal%open_file > 0) close (journal%reader)
-    journal%open_file = 0
-  end subroutine close_files
+    if (journal%open_file >= 0) close (journal%reader)
+    journal%open_file = -1
+  end subroutine close_reader
 
 end module task_journal

@@ -390,7 +390,7 @@ check "a part without time" no_time
 # The disk is a small tmpfs.
 full_disk() {
   run 2 --out "$scratch/disk" --part 1/1 "$deck" || return 1
-  says "my.part1of1: error: the part could not be written completely; is the disk full?" && absent "$scratch/disk/my/my.part1of1"
+  says "my.part1of1: error: the file could not be written completely: No space left on device" && absent "$scratch/disk/my/my.part1of1"
 }
 mkdir "$scratch/disk"
 if mount -t tmpfs -o size=64k tmpfs "$scratch/disk" 2>/dev/null; then
