@@ -172,7 +172,7 @@ def fault_of_run(names_deck, run, deck):
     if run.returncode == 2:
         return fault_of_message(names_deck, stderr)
     # A response of a whole turn fails at a speed, without a crank angle; intervals of stability in a range of speeds; a variant whole.
-    if run.returncode == 1 and not re.search(r"^d\.deck: error: (.*(crank \S+ deg|, speeds? (\S+ to )?\S+ (rad/s|rpm))|\S+=\S+( \S+=\S+)*): .", stderr,
+    if run.returncode == 1 and not re.search(r"^d\.deck: error: (.*(crank \S+ \S+|, speeds? (\S+ to )?\S+ (rad/s|rpm))|\S+=\S+( \S+=\S+)*): .", stderr,
                                              re.MULTILINE):
         return f"status 1, but no failure is reported: {stderr[-400:]}"
     return None
