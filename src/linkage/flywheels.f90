@@ -152,7 +152,8 @@ contains
   end subroutine run
 
   !> E0 with which the mean speed over time is the given one. The time of the cycle falls with E0
-  !! and is convex: Newton's method comes from below and stays there.
+  !! and is convex: Newton's method comes from below and stays there. Where the mean speed is so low
+  !! that the linkage all but stops, its energy there is less than rounding: none is left.
   pure function energy_of_mean_speed(turn, total, speed) result(energy)
     type(cycle_t), intent(in) :: turn
     real(wp), intent(in) :: total(:), speed
@@ -166,6 +167,7 @@ contains
       floor + 1.0e-3_wp*speed**2*minval(total))
     last = huge(last)
     do i = 1, most_iterations
+      if (energy <= floor) exit
       rate = sqrt(2.0_wp*(energy + turn%energy)/total)
       ! Mean of 1/ω less what it is to be, and its derivative −mean of 1/(ω³ (M + I)).
       excess = sum(1.0_wp/rate)/size(total) - 1.0_wp/speed
