@@ -197,7 +197,9 @@ contains
       call open_part(folder, name, inputs, session%outputs, error)
       if (allocated(error)) return
       call open_journal(folder, title, options%resume, session%journal, blocks, name)
-      if (.not. keeps_tasks(session%journal)) error = session%journal%error
+      if (keeps_tasks(session%journal)) return
+      ! What could not be written later is told when the part is put in place.
+      if (allocated(session%journal%error)) error = session%journal%error
       return
     end if
     if (options%join) then

@@ -176,7 +176,7 @@ contains
     integer, intent(out) :: blocks
 
     character(len=:), allocatable :: title
-    integer(long) :: next
+    integer(long) :: next, bytes
     integer :: unit, status
 
     blocks = 0
@@ -195,7 +195,11 @@ contains
     close (unit)
     if (.not. journal%is_open) return
     call shorten_file(journal%path, next - 1)
+    inquire (file=journal%path, size=bytes)
     call open_output(journal%path, journal%file, journal%error, at_end=.true.)
+    ! What followed bytes that are no block would be lost.
+    if (.not. allocated(journal%error) .and. bytes /= next - 1) call set_error(journal%error, &
+      error_of_files, "what is behind its last block cannot be cut off", journal%path)
   end subroutine read_journal
 
   !> Takes the blocks of a complete journal of another run, which is only read.
