@@ -322,7 +322,7 @@ contains
       here = followed
       if (present(pair)) pair%exponent = [followed, followed_partner]
       if (space%is_harmonic .and. .not. (is_damped .and. present(pair))) call take_value_of_form
-      ! On long runs a mode takes a second.
+      ! A mode may take half a minute.
       if (was_interrupted()) exit
       call find_residual(here, weights, residual)
       call approximate(residual, correction)
