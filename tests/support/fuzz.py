@@ -24,7 +24,7 @@ from collections import Counter
 
 import fuzz_decks
 from deck_language import language
-from fuzz_decks import Dice
+from fuzz_decks import Dice, LENGTHS
 
 FAILED = os.path.join("build", "fuzz")
 PROGRAMS = {kind: os.path.join("build", kind, "flexmech") for kind in ("debug", "release")}
@@ -46,6 +46,9 @@ OPTIONS = [
 ]
 
 RUN_TIME = re.compile(r"Fortran runtime|Backtrace|SIG[A-Z]{3}|At line \d+ of file|Sanitizer|free\(\)|malloc|double free|stack smash")
+# A response of a whole turn fails at a speed, without a position; intervals of stability in a range of speeds; a variant whole.
+FAILURE = re.compile(r"^d\.deck: error: (.*(crank \S+ (deg|" + "|".join(LENGTHS) + r")|, speeds? (\S+ to )?\S+ (rad/s|rpm))|\S+=\S+( \S+=\S+)*): .",
+                     re.MULTILINE)
 NOT_A_NUMBER = re.compile(r"\b(?:NaN|[-+]?Inf(?:inity)?)\b|\*{4,}|is not a number$")
 REAL = re.compile(r"-?\d\.\d+E[-+]\d{3}$")
 PLACE = re.compile(r"(?P<deck>.*?):(?P<line>\d+):(?P<column>\d+): (?:error|warning|note): .")
@@ -171,9 +174,7 @@ def fault_of_run(names_deck, run, deck):
         return f"a runtime error: {stderr[-400:]}"
     if run.returncode == 2:
         return fault_of_message(names_deck, stderr)
-    # A response of a whole turn fails at a speed, without a crank angle; intervals of stability in a range of speeds; a variant whole.
-    if run.returncode == 1 and not re.search(r"^d\.deck: error: (.*(crank \S+ \S+|, speeds? (\S+ to )?\S+ (rad/s|rpm))|\S+=\S+( \S+=\S+)*): .", stderr,
-                                             re.MULTILINE):
+    if run.returncode == 1 and not FAILURE.search(stderr):
         return f"status 1, but no failure is reported: {stderr[-400:]}"
     return None
 
