@@ -8,7 +8,7 @@ module counterweight_series
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use linkages, only: cross, linkage_t, normal_to, reference_point, turned
   use pose_types, only: pins_of_body, place_of_pin
-  use poses, only: find_pose, pose_t
+  use poses, only: find_moving_pose, pose_t
   implicit none (type, external)
   private
 
@@ -53,7 +53,7 @@ contains
     integer :: i
 
     parts = 0.0_wp
-    call find_pose(linkage, crank, pose, error)
+    call find_moving_pose(linkage, crank, pose, error)
     if (allocated(error)) return
     coefficients = find_kinematic_coefficients(linkage, pose)
     do i = 1, size(weights)

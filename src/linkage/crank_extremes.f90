@@ -6,7 +6,7 @@ module crank_extremes
   use group_equations, only: line_axis, line_offset, world_line
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
-  use linkages, only: cross, linkage_t, normal_to
+  use linkages, only: cross, groups_driven_dyad, groups_dyad, linkage_t, normal_to
   use pose_types, only: pose_t
   use poses, only: body_angle, dead_point_sine, place_links, transmission_angle
   implicit none (type, external)
@@ -38,9 +38,12 @@ module crank_extremes
 
   integer, parameter :: most_halvings = 80
 
+  !> What changes less than by rounding is constant: angles [deg], places as a share of the links.
+  real(wp), parameter :: constant_angle = 1.0e-10_wp, constant_place = 1.0e-12_wp
+
 contains
 
-  !> Least and greatest values of a quantity over a range.
+  !> Least and greatest values of a quantity over a range. Of a constant they are the same.
   pure subroutine find_extremes(linkage, range, quantity, extremes)
     type(linkage_t), intent(in) :: linkage        !! of any kind, with its path
     type(crank_range_t), intent(in) :: range      !! one of `find_ranges`
@@ -48,7 +51,7 @@ contains
     type(extremes_t), intent(out) :: extremes     !! over the range
 
     real(wp) :: c, value, rate, last_c, last_value, last_rate, low, high, low_rate, &
-      first, first_rate
+      first, first_rate, constant
     logical :: is_fine, has_last
     integer :: i, k
 
@@ -62,6 +65,7 @@ contains
       c = range%from + (range%to - range%from)*i/samples
       call evaluate(linkage, quantity, c, value, rate, is_fine)
       if (.not. is_fine .and. .not. (i == 0 .or. i == samples)) cycle
+      if (.not. is_fine) call evaluate_end(linkage, quantity, range, c, value)
       if (has_last) value = unwrapped(quantity, value, last_value)
       if (.not. has_last) then
         first = value
@@ -105,7 +109,53 @@ contains
     if (range%turns .and. first_rate*last_rate < 0.0_wp) extremes%reversals = extremes%reversals + 1
     if (range%turns .and. quantity%kind == angle_of_body) extremes%turned = &
       360.0_wp*anint((last_value - first)/360.0_wp)
+    constant = constant_angle
+    if (quantity%kind == place_of_slider) constant = constant_place*maxval(linkage%bodies%length)
+    if (extremes%greatest - extremes%least > constant) return
+    extremes%greatest = extremes%least
+    extremes%at_greatest = extremes%at_least
+    extremes%reversals = 0
   end subroutine find_extremes
+
+  !> A quantity at an end of a range, where there is no rate. Where the pins that carry a dyad come
+  !! together there, its direction is rounding: the value is that to which those inside lead.
+  pure subroutine evaluate_end(linkage, quantity, range, c, value)
+    type(linkage_t), intent(in) :: linkage
+    type(quantity_t), intent(in) :: quantity
+    type(crank_range_t), intent(in) :: range
+    real(wp), intent(in) :: c        !! the end
+    real(wp), intent(inout) :: value !! as placed there
+
+    !> So near bases have no direction, as a share of the links.
+    real(wp), parameter :: together = 1.0e-6_wp
+    !> How far inside, as a share of the range.
+    real(wp), parameter :: inside = 1.0e-4_wp
+    type(pose_t) :: pose
+    type(error_t), allocatable :: error
+    real(wp) :: way, near(3), rate
+    logical :: is_fine, meets
+    integer :: g, k
+
+    call place_links(linkage, c, pose, error)
+    meets = allocated(error)
+    do g = 1, size(linkage%groups)
+      if (meets) exit
+      associate (group => linkage%groups(g))
+        if (.not. any(group%kind == [groups_dyad, groups_driven_dyad])) cycle
+        meets = norm2(pose%pin(:, group%base(2)) - pose%pin(:, group%base(1))) < &
+          together*maxval(linkage%bodies(group%body)%length)
+      end associate
+    end do
+    if (.not. meets) return
+    way = inside*(range%to - range%from)
+    if (abs(c - range%to) < abs(c - range%from)) way = -way
+    do k = 1, 3
+      call evaluate(linkage, quantity, c + k*way, near(k), rate, is_fine)
+      if (.not. is_fine) return
+      near(k) = unwrapped(quantity, near(k), near(1))
+    end do
+    value = 3.0_wp*(near(1) - near(2)) + near(3)
+  end subroutine evaluate_end
 
   pure subroutine take(extremes, c, value)
     type(extremes_t), intent(inout) :: extremes
@@ -149,7 +199,7 @@ contains
     call place_links(linkage, c, pose, error)
     is_fine = .not. allocated(error)
     if (.not. is_fine) return
-    is_fine = all(abs(pose%sine) > dead_point_sine)
+    is_fine = all(abs(pose%sine) > dead_point_sine) .or. allocated(pose%coefficients)
     if (is_fine) then
       coefficients = find_kinematic_coefficients(linkage, pose)
     else

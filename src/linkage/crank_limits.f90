@@ -5,7 +5,7 @@ module crank_limits
   use linkage_paths, only: period_of
   use linkages, only: drives_angle, linkage_t
   use pose_types, only: pose_t
-  use poses, only: find_pose, place_links
+  use poses, only: find_moving_pose, place_links
   use sorting, only: ascending_order
   implicit none (type, external)
   private
@@ -109,7 +109,7 @@ contains
       abs(period_of(linkage) - 360.0_wp) <= 0.0_wp
     do i = 1, samples
       if (.not. turns) return
-      call find_pose(linkage, 360.0_wp*i/samples, pose, error)
+      call find_moving_pose(linkage, 360.0_wp*i/samples, pose, error)
       turns = .not. allocated(error)
     end do
   end function turns_fully
@@ -137,7 +137,7 @@ contains
 
     call place_links(linkage, crank, pose, error)
     is = .not. allocated(error)
-    if (is) is = all(abs(pose%sine) > 0.0_wp)
+    if (is) is = all(abs(pose%sine) > 0.0_wp) .or. allocated(pose%coefficients)
   end function is_inside
 
   !> The last coordinate, in steps from one at which the linkage closes, at which it still does, by
@@ -153,14 +153,20 @@ contains
 
     type(pose_t) :: pose
     type(error_t), allocatable :: error
-    real(wp) :: beyond, middle
-    integer :: i
+    real(wp) :: beyond, middle, jump
+    integer :: i, number
 
     last = inside
     group = 0
     pin = 0
     do i = 1, 20*samples
       beyond = last + step
+      call find_jump(linkage, last, beyond, number, jump)
+      if (number > 0) then
+        last = jump
+        group = linkage%path%bridges(number)%group
+        return
+      end if
       if (.not. is_closed(linkage, beyond)) exit
       last = beyond
     end do
@@ -180,5 +186,25 @@ contains
       if (size(pose%sine) > 0) group = minloc(abs(pose%sine), dim=1)
     end if
   end subroutine find_end
+
+  !> A place between two coordinates at which dyads on their sides would jump.
+  pure subroutine find_jump(linkage, from, to, number, place)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: from, to
+    integer, intent(out) :: number !! of the bridge there; 0: there is none
+    real(wp), intent(out) :: place
+
+    number = 0
+    place = from
+    if (allocated(linkage%path%crank) .or. .not. allocated(linkage%path%bridges)) return
+    associate (path => linkage%path)
+      do number = size(path%bridges), 1, -1
+        if (.not. path%bridges(number)%is_jump) cycle
+        place = path%bridges(number)%change
+        if (path%period > 0.0_wp) place = min(from, to) + modulo(place - min(from, to), path%period)
+        if ((place - from)*(to - place) > 0.0_wp) return
+      end do
+    end associate
+  end subroutine find_jump
 
 end module crank_limits

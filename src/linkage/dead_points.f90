@@ -1,8 +1,10 @@
 !> Where in a range of the first drive a group comes nearest to a dead point.
 module dead_points
+  use bridges, only: bridge_at, place_on_path
   use crank_limits, only: crank_range_t, samples
   use errors, only: error_t
   use kinds, only: wp
+  use linkage_paths, only: has_change_points
   use linkages, only: linkage_t
   use pose_types, only: pose_t
   use poses, only: dead_point_sine, place_links
@@ -17,6 +19,7 @@ module dead_points
     real(wp) :: crank = 0.0_wp     !! coordinate of the first drive [deg] or [m]
     real(wp) :: sine = 0.0_wp      !! |σ| there [-]
     logical :: is_dead = .false.   !! positions there are refused
+    logical :: is_change = .false. !! the linkage goes smoothly through
   end type low_point_t
 
 contains
@@ -38,6 +41,7 @@ contains
     integer :: g, i
 
     allocate (points(0))
+    call take_change_points(linkage, range, points)
     do i = 0, samples
       sine(:, i) = sines_at(linkage, crank_at(range, real(i, wp)))
     end do
@@ -54,6 +58,7 @@ contains
         if (sine(g, i) > sine(g, i - 1) .or. sine(g, i) >= next_of(i)) cycle
         if (sine(g, i) > low .and. .not. by_iterations(g)) cycle
         point = lowest_point(linkage, g, crank_at(range, i - 1.0_wp), crank_at(range, i + 1.0_wp))
+        if (is_on_bridge(linkage, point%crank)) cycle
         if (range%turns .and. point%crank < range%from - rounding) point%crank = point%crank + &
           (range%to - range%from)
         point%crank = max(point%crank, range%from)
@@ -75,6 +80,35 @@ contains
     end function next_of
 
   end subroutine find_low_points
+
+  !> The change points in a range.
+  pure subroutine take_change_points(linkage, range, points)
+    type(linkage_t), intent(in) :: linkage
+    type(crank_range_t), intent(in) :: range
+    type(low_point_t), allocatable, intent(inout) :: points(:)
+
+    type(low_point_t) :: point
+    integer :: i
+
+    if (.not. has_change_points(linkage)) return
+    associate (path => linkage%path)
+      do i = 1, size(path%bridges)
+        point = low_point_t(path%bridges(i)%group, path%bridges(i)%change, is_change=.true.)
+        if (path%period > 0.0_wp) point%crank = range%from + modulo(point%crank - range%from, &
+          path%period)
+        if (point%crank <= range%to) points = [points, point]
+      end do
+    end associate
+  end subroutine take_change_points
+
+  pure logical function is_on_bridge(linkage, crank)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: crank
+
+    is_on_bridge = .false.
+    if (has_change_points(linkage)) is_on_bridge = bridge_at(linkage%path, place_on_path( &
+      linkage%path, crank)) > 0
+  end function is_on_bridge
 
   !> A coordinate of a range, counted in samples.
   pure function crank_at(range, number) result(crank)

@@ -22,10 +22,11 @@ contains
   !!
   !! Errors: the position is out of reach; the two bases coincide, which leaves the direction of the
   !! dyad undetermined; a link is shorter than the rounding of coordinates.
-  pure subroutine place_dyad(linkage, dyad, r, pose, sine, error)
+  pure subroutine place_dyad(linkage, dyad, r, side, pose, sine, error)
     type(linkage_t), intent(in) :: linkage !! last pins of the two bodies
     type(group_t), intent(in) :: dyad      !! of this linkage
     real(wp), intent(in) :: r(2)           !! from each base to the middle [m]
+    real(wp), intent(in) :: side           !! as in `group_t`
     type(pose_t), intent(inout) :: pose    !! with the bases; its middle and two bodies are placed
     real(wp), intent(out) :: sine          !! of the dyad; see `pose_t`
     type(error_t), allocatable, intent(inout) :: error !! why it cannot be placed
@@ -52,7 +53,7 @@ contains
     along = 0.5_wp*(distance + (r(1) - r(2))*(r(1) + r(2))/distance)
     height = 0.5_wp*sqrt(max(four_areas_squared, 0.0_wp))/distance
     pose%pin(:, dyad%middle) = pose%pin(:, dyad%base(1)) + along*unit + &
-      dyad%side*height*normal_to(unit)
+      side*height*normal_to(unit)
 
     do k = 1, 2
       arm(:, k) = pose%pin(:, dyad%middle) - pose%pin(:, dyad%base(k))

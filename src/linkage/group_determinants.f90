@@ -1,6 +1,6 @@
 !> Scaled determinants of groups at any pose: zero at a dead point; their signs are the branches.
 module group_determinants
-  use dense_factor, only: dense_factor_t
+  use dense_factor, only: dense_factor_t, least_singular_value
   use group_equations, only: factorize_group, line_axis
   use kinds, only: wp
   use linkages, only: cross, groups_by_newton, groups_cross_slide, groups_driven_dyad, &
@@ -28,7 +28,8 @@ contains
   end function determinants_of
 
   !> The determinant of a group: of two bodies, of a body and a line, and of two lines the sine or
-  !! cosine of the angle at which their loci meet; of groups by iterations that of their equations;
+  !! cosine of the angle at which their loci meet; of groups by iterations the smallest singular
+  !! value of their equations, rows of length one, with the sign of their determinant;
   !! 1 of what has no dead point.
   pure function determinant_of(linkage, pose, number) result(determinant)
     type(linkage_t), intent(in) :: linkage !! with its plan
@@ -59,7 +60,7 @@ contains
       case (groups_by_newton)
         allocate (scales(size(group%bodies)))
         call factorize_group(linkage, group, pose, factor, scales)
-        determinant = factor%determinant
+        determinant = least_singular_value(factor)
       end select
     end associate
   end function determinant_of

@@ -1,7 +1,7 @@
 !> Places groups other than RRR dyads of given lengths: in closed form, from circles and lines, or
 !! by Newton's method.
 module group_places
-  use dense_factor, only: dense_factor_t, solve
+  use dense_factor, only: dense_factor_t, least_singular_value, solve
   use dyad_places, only: limit_slack, place_dyad
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
   use group_equations, only: drive_direction, drive_value, factorize_group, &
@@ -24,9 +24,10 @@ contains
   !! none that only iterations place.
   !!
   !! Errors: the position is out of reach; a dead point that leaves the group undetermined.
-  pure subroutine place_group(linkage, group, origin, crank, pose, sine, error)
+  pure subroutine place_group(linkage, group, side, origin, crank, pose, sine, error)
     type(linkage_t), intent(in) :: linkage    !! bodies, sliders, turns and drives
     type(group_t), intent(in) :: group        !! of this linkage
+    real(wp), intent(in) :: side              !! as in `group_t`
     real(wp), intent(in) :: origin(2)         !! from which the pins of the pose are counted [m]
     real(wp), intent(in) :: crank             !! coordinate of the first drive [deg] or [m]
     type(pose_t), intent(inout) :: pose       !! with all groups before this one
@@ -44,11 +45,11 @@ contains
           group%body(1), group%pins(i))
       end do
     case (groups_driven_dyad)
-      call place_driven_dyad(linkage, group, crank, pose, sine, error)
+      call place_driven_dyad(linkage, group, side, crank, pose, sine, error)
     case (groups_on_line)
-      call place_on_line(linkage, group, origin, crank, pose, sine, error)
+      call place_on_line(linkage, group, side, origin, crank, pose, sine, error)
     case (groups_through_pin)
-      call place_through_pin(linkage, group, pose, sine, error)
+      call place_through_pin(linkage, group, side, pose, sine, error)
     case (groups_two_lines)
       call world_line(linkage, pose, group%slider(1), origin, axis, point)
       call world_line(linkage, pose, group%slider(2), origin, other_axis, other_point)
@@ -119,9 +120,10 @@ contains
   end function direction_of_turn
 
   !> RRR with driven lengths.
-  pure subroutine place_driven_dyad(linkage, group, crank, pose, sine, error)
+  pure subroutine place_driven_dyad(linkage, group, side, crank, pose, sine, error)
     type(linkage_t), intent(in) :: linkage
     type(group_t), intent(in) :: group
+    real(wp), intent(in) :: side
     real(wp), intent(in) :: crank
     type(pose_t), intent(inout) :: pose
     real(wp), intent(out) :: sine
@@ -134,7 +136,7 @@ contains
     do k = 1, 2
       call find_length(linkage, group%equations(2*k - 1), group%body(k), crank, r(k), error)
     end do
-    if (.not. allocated(error)) call place_dyad(linkage, group, r, pose, sine, error)
+    if (.not. allocated(error)) call place_dyad(linkage, group, r, side, pose, sine, error)
   end subroutine place_driven_dyad
 
   !> The distance between two pins of a body, which may be driven.
@@ -160,9 +162,10 @@ contains
   !!
   !! With h the distance of the base from the line, the pin lies `√((r − h)(r + h))` from the foot
   !! of the perpendicular.
-  pure subroutine place_on_line(linkage, group, origin, crank, pose, sine, error)
+  pure subroutine place_on_line(linkage, group, side, origin, crank, pose, sine, error)
     type(linkage_t), intent(in) :: linkage
     type(group_t), intent(in) :: group
+    real(wp), intent(in) :: side
     real(wp), intent(in) :: origin(2)
     real(wp), intent(in) :: crank
     type(pose_t), intent(inout) :: pose
@@ -183,7 +186,7 @@ contains
       call set_error(error, error_of_reach, "the position is out of reach", body=group%body(1))
       return
     end if
-    along = group%side*sqrt(max(squared, 0.0_wp))
+    along = side*sqrt(max(squared, 0.0_wp))
     pose%pin(:, group%middle) = point + (dot_product(axis, way) + along)*axis
     ! From the base: along the line, and back across it.
     way = along*axis - h*normal_to(axis)
@@ -192,9 +195,10 @@ contains
   end subroutine place_on_line
 
   !> RPR: the line of a body passes through a pin placed before.
-  pure subroutine place_through_pin(linkage, group, pose, sine, error)
+  pure subroutine place_through_pin(linkage, group, side, pose, sine, error)
     type(linkage_t), intent(in) :: linkage
     type(group_t), intent(in) :: group
+    real(wp), intent(in) :: side
     type(pose_t), intent(inout) :: pose
     real(wp), intent(out) :: sine
     type(error_t), allocatable, intent(inout) :: error
@@ -214,7 +218,7 @@ contains
         "which the link turns", body=group%body(1))
       return
     end if
-    along = group%side*sqrt(max(squared, 0.0_wp))
+    along = side*sqrt(max(squared, 0.0_wp))
     ! The line passes the first pin at a distance: to its left where `offset` is positive.
     pose%direction(:, group%body(1)) = turned_back((along*u - offset*normal_to(u))/distance**2, &
       linkage%sliders(group%slider(1))%direction)
@@ -258,7 +262,7 @@ contains
     real(wp), intent(in) :: origin(2)         !! from which the pins of the pose are counted [m]
     real(wp), intent(in) :: crank             !! coordinate of the first drive [deg] or [m]
     type(pose_t), intent(inout) :: pose       !! near the solution; the solution
-    real(wp), intent(out) :: sine             !! scaled determinant at the last iteration
+    real(wp), intent(out) :: sine             !! smallest singular value at the last iteration
     real(wp), intent(out) :: largest          !! correction of all iterations [m]
     integer, intent(out) :: iterations        !! how many
     type(error_t), allocatable, intent(inout) :: error !! why it does not converge
@@ -275,8 +279,7 @@ contains
     reach = 1.0_wp
     do iterations = 1, most_iterations
       call factorize_group(linkage, group, pose, factor, scales)
-      sine = factor%determinant
-      if (.not. abs(sine) > 0.0_wp) exit
+      if (.not. abs(factor%determinant) > 0.0_wp) exit
       reach = maxval([maxval(abs(pose%pin)), scales])
       do i = 1, size(group%equations)
         misfit(i) = misfit_of(linkage, group%equations(i), pose, origin, crank)
@@ -298,8 +301,11 @@ contains
       size_of_step = maxval(abs(step))
       if (.not. size_of_step <= 1.0e6_wp*reach) exit
       ! Rounding remains: corrections that are tiny, and no smaller than half the last ones.
-      if (size_of_step <= 4.0_wp*epsilon(1.0_wp)*reach) return
-      if (size_of_step >= 0.5_wp*last .and. size_of_step <= 1.0e-12_wp*reach) return
+      if (size_of_step <= 4.0_wp*epsilon(1.0_wp)*reach .or. (size_of_step >= 0.5_wp*last .and. &
+        size_of_step <= 1.0e-12_wp*reach)) then
+        sine = least_singular_value(factor)
+        return
+      end if
       last = size_of_step
     end do
     call set_error(error, error_of_numerics, "the position was not found by iterations", &

@@ -10,7 +10,7 @@ module kinematic_coefficients
   use group_equations, only: curvature_of, drive_rate, factorize_group, find_gradient, gradient_t
   use kinds, only: wp
   use linkages, only: demands_drive, group_t, groups_carried, groups_dyad, linkage_t, normal_to
-  use pose_types, only: arm_to_pin
+  use pose_types, only: arm_to_pin, kinematic_coefficients_t
   use poses, only: arm_to_middle, pose_t
   implicit none (type, external)
   private
@@ -18,14 +18,6 @@ module kinematic_coefficients
   public :: kinematic_coefficients_t, find_kinematic_coefficients, find_velocities, &
     angular_velocity, &
     angular_acceleration
-
-  !> First and second derivatives with respect to the crank angle θ2.
-  type :: kinematic_coefficients_t
-    real(wp), allocatable :: turn(:)          !! (bodies) h [-]
-    real(wp), allocatable :: turn_slope(:)    !! (bodies) h' [-]
-    real(wp), allocatable :: pin(:, :)        !! (2, pins) dx/dθ2 [m]
-    real(wp), allocatable :: pin_slope(:, :)  !! (2, pins) d²x/dθ2² [m]
-  end type kinematic_coefficients_t
 
 contains
 
@@ -45,6 +37,9 @@ contains
 
     if (present(rates)) then
       drives = rates
+    else if (allocated(pose%coefficients)) then
+      coefficients = pose%coefficients
+      return
     else
       drives = [(drive_rate(linkage, i), i=1, size(drives))]
     end if

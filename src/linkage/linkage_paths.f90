@@ -1,27 +1,30 @@
-!> The way of a linkage whose groups only iterations place: followed once, from the drawing, over
-!! whole turns of the first drive.
+!> The way of a linkage with change points, or whose groups only iterations place: followed once,
+!! from the drawing, over whole turns of the first drive.
 !!
-!! From station to station Newton's method starts from the velocities and accelerations of the last
-!! one. A step is halved unless it converges, every determinant keeps its sign, and the correction
-!! is small compared with the way: the linkage cannot leave its branch.
+!! From station to station Newton's method, or the choice between two places, starts from the
+!! velocities and accelerations of the last one. A step is halved unless it is good: the linkage
+!! cannot leave its branch. Change points are bridged.
 module linkage_paths
+  use bridges, only: cross_bridge
+  use change_points, only: find_bridge, is_near_change
+  use constants, only: degree
   use errors, only: error_of_dead_point, error_of_input, error_t, set_error
   use kinds, only: wp
-  use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
-  use linkages, only: drives_angle, groups_by_newton, linkage_t, normal_to, path_t, reference_point
-  use constants, only: degree
+  use linkages, only: bridge_t, changes_branch, changes_stop, changes_through, drives_angle, &
+    group_t, groups_by_newton, is_dyad_linkage, linkage_t, path_t, reference_point
+  use path_steps, only: new_station, station_t, take_step
   use pose_types, only: drawn_pose, pose_t
-  use poses, only: dead_point_sine, place_groups
+  use poses, only: dead_point_sine, place_groups, place_links
   implicit none (type, external)
   private
 
-  public :: follow_path, period_of, has_iterations, most_turns
+  public :: follow_path, leave_path, has_change_points, period_of, has_iterations, most_turns
 
   !> Largest step between stations: of an angle [deg]; of a length as a share of the linkage.
   real(wp), parameter :: angle_step = 2.0_wp, length_step = 0.005_wp
 
   !> Steps are halved this often, at most: then the path ends.
-  integer, parameter :: most_halvings = 24
+  integer, parameter :: most_halvings = 40
 
   !> Turns after which a linkage that has not repeated its positions is taken to have no period.
   integer, parameter :: most_turns = 8
@@ -41,6 +44,15 @@ contains
 
     has = any(linkage%groups%kind == groups_by_newton)
   end function has_iterations
+
+  !> Whether a linkage goes smoothly through points at which its equations depend on each other.
+  pure function has_change_points(linkage) result(has)
+    type(linkage_t), intent(in) :: linkage !! with its path, if it has one
+    logical :: has
+
+    has = allocated(linkage%path%crank)
+    if (has) has = size(linkage%path%bridges) > 0
+  end function has_change_points
 
   !> The interval of the first drive after which all positions repeat [deg]; 0: there is none.
   pure function period_of(linkage) result(period)
@@ -72,25 +84,60 @@ contains
     end do
   end function period_of
 
-  !> Finds the stations of the path. A linkage of dyads alone has none.
+  !> Finds the path of a linkage with change points, or with groups that only iterations place.
   !!
   !! Errors: the linkage does not assemble near the drawing; the pose found is then that of the
   !! iterations, if they converged. It is at a dead point there.
-  pure subroutine follow_path(linkage, start, nearest, error)
+  pure subroutine follow_path(linkage, starts, changes, nearest, error)
     type(linkage_t), intent(inout) :: linkage !! with groups and drawing; its path is set
-    real(wp), intent(in) :: start             !! coordinate of the first drive in the drawing [deg]
-                                              !! or [m]
+    real(wp), intent(in) :: starts(:)         !! coordinates of the first drive [deg] or [m]: in the
+                                              !! drawing, or without one those of the deck, of which
+                                              !! the first serves that is no change point
+    integer, intent(in) :: changes            !! one of the changes_… constants
     type(pose_t), allocatable, intent(out) :: nearest !! assembly nearest to the drawing, in global
                                                       !! axes; not allocated without one
     type(error_t), allocatable, intent(inout) :: error !! why there is no path
 
-    type(pose_t) :: pose
-    type(path_t) :: up, down
-    real(wp) :: origin(2), correction, span, farthest
-    integer :: i
+    type(station_t) :: first
+    real(wp) :: usual(size(linkage%groups)), span
 
     if (allocated(linkage%path%crank)) deallocate (linkage%path%crank)
-    if (.not. has_iterations(linkage)) return
+    usual = 0.0_wp
+    if (has_iterations(linkage)) then
+      call begin_at_drawing(linkage, starts(1), first, span, nearest, error)
+      if (allocated(error)) return
+      call follow(linkage, first, span, usual, changes == changes_through, linkage%path)
+      if (size(linkage%path%crank) == 1) call set_error(error, error_of_dead_point, &
+        "dead point: the linkage cannot be followed from the drawing")
+      return
+    end if
+    if (.not. may_change(linkage)) return
+    call begin_at_place(linkage, starts, first, span, usual)
+    if (span <= 0.0_wp) return
+    call follow(linkage, first, span, usual, .true., linkage%path)
+    if (changes == changes_branch) call find_jumps(linkage, linkage%path%bridges)
+    if (size(linkage%path%bridges) == 0 .or. changes == changes_branch) then
+      ! Dyads need no path where their sides are the same everywhere.
+      deallocate (linkage%path%crank)
+    else if (changes == changes_stop) then
+      call follow(linkage, first, span, usual, .false., linkage%path)
+      linkage%path%stops = .true.
+    end if
+  end subroutine follow_path
+
+  !> The place of iterations nearest to the drawing.
+  pure subroutine begin_at_drawing(linkage, start, first, span, nearest, error)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: start
+    type(station_t), intent(out) :: first
+    real(wp), intent(out) :: span !! of the linkage [m]
+    type(pose_t), allocatable, intent(out) :: nearest
+    type(error_t), allocatable, intent(inout) :: error
+
+    type(pose_t) :: pose
+    real(wp) :: origin(2), correction, farthest
+    integer :: i
+
     origin = reference_point(linkage)
     pose = drawn_pose(linkage, origin)
     call place_groups(linkage, start, pose, correction, error)
@@ -107,24 +154,163 @@ contains
       call set_error(error, error_of_input, "the linkage does not assemble near the drawing")
       return
     end if
-    call march(linkage, start, pose, 1.0_wp, span, up)
-    if (up%period > 0.0_wp) then
-      linkage%path = up
+    first = new_station(linkage, start, pose)
+  end subroutine begin_at_drawing
+
+  !> Whether dyads may have a change point: on the sides that they have, some determinant comes near
+  !! to zero in a period of the first drive. Of a drive without a period that is not known.
+  pure function may_change(linkage) result(may)
+    type(linkage_t), intent(in) :: linkage
+    logical :: may
+
+    !> At steps between stations a determinant that passes zero is below this share of its largest.
+    real(wp), parameter :: low = 0.2_wp
+    type(pose_t) :: pose
+    type(error_t), allocatable :: error
+    real(wp), dimension(size(linkage%groups)) :: least, greatest
+    real(wp) :: period, correction
+    integer :: i
+
+    if (is_dyad_linkage(linkage) .and. size(linkage%groups) == 1) then
+      may = adds_up(linkage, linkage%groups(1))
       return
     end if
-    call march(linkage, start, pose, -1.0_wp, span, down)
-    if (size(down%crank) + size(up%crank) <= 2) then
-      call set_error(error, error_of_dead_point, "dead point: the linkage cannot be followed "// &
-        "from the drawing")
-      return
-    end if
-    call join(down, up, linkage%path)
-    ! Within less than a turn an angle is the same with and without whole turns.
-    associate (path => linkage%path)
-      if (linkage%drives(1)%kind == drives_angle .and. path%crank(size(path%crank)) - &
-        path%crank(1) < 360.0_wp) path%period = 360.0_wp
+    period = period_of(linkage)
+    may = period <= 0.0_wp
+    least = 1.0_wp
+    greatest = 0.0_wp
+    do i = 1, nint(period/angle_step)
+      call place_groups(linkage, i*angle_step, pose, correction, error)
+      if (allocated(error)) then
+        deallocate (error)
+        cycle
+      end if
+      least = min(least, abs(pose%sine))
+      greatest = max(greatest, abs(pose%sine))
+      may = any(least < low*greatest)
+      if (may) return
+    end do
+  end function may_change
+
+  !> Whether the crank comes just as near to the other pivot, or as far from it, as a dyad folds or
+  !! stretches.
+  pure function adds_up(linkage, dyad) result(does)
+    type(linkage_t), intent(in) :: linkage
+    type(group_t), intent(in) :: dyad
+    logical :: does
+
+    real(wp), parameter :: nearly = 1.0e-6_wp
+    real(wp) :: ground, r(2), reach(4)
+
+    ground = norm2(linkage%ground_position(:, dyad%base(2)) - linkage%ground_position(:, &
+      linkage%bodies(1)%first_pin))
+    associate (crank => linkage%bodies(1)%length)
+      r = linkage%bodies(dyad%body)%length
+      reach = [ground + crank - sum(r), ground + crank - abs(r(1) - r(2)), &
+        abs(ground - crank) - sum(r), abs(ground - crank) - abs(r(1) - r(2))]
+      does = any(abs(reach) < nearly*(ground + crank))
     end associate
-  end subroutine follow_path
+  end function adds_up
+
+  !> Where dyads on their sides would jump.
+  pure subroutine find_jumps(linkage, bridges)
+    type(linkage_t), intent(in) :: linkage
+    type(bridge_t), intent(inout) :: bridges(:)
+
+    !> So near pins have come together, as a share of the links.
+    real(wp), parameter :: together = 1.0e-6_wp
+    type(pose_t) :: pose
+    integer :: i
+
+    do i = 1, size(bridges)
+      call cross_bridge(linkage, bridges(i), bridges(i)%change, pose)
+      associate (group => linkage%groups(bridges(i)%group))
+        if (group%base(2) == 0) cycle
+        bridges(i)%is_jump = norm2(pose%pin(:, group%base(2)) - pose%pin(:, group%base(1))) < &
+          together*maxval(linkage%bodies(group%body)%length)
+      end associate
+    end do
+  end subroutine find_jumps
+
+  !> Dyads without a path, on the sides on which the path has them at a coordinate.
+  pure subroutine leave_path(linkage, crank)
+    type(linkage_t), intent(inout) :: linkage
+    real(wp), intent(in) :: crank !! [deg] or [m]
+
+    type(pose_t) :: pose
+    type(error_t), allocatable :: error
+
+    if (.not. allocated(linkage%path%crank) .or. has_iterations(linkage)) return
+    call place_links(linkage, crank, pose, error)
+    if (.not. allocated(error)) linkage%groups%side = sign(1.0_wp, pose%sine)
+    deallocate (linkage%path%crank)
+  end subroutine leave_path
+
+  !> The first of some places where a linkage of dyads closes away from change points, or one beside
+  !! the first of them.
+  pure subroutine begin_at_place(linkage, starts, first, span, usual)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: starts(:)
+    type(station_t), intent(out) :: first
+    real(wp), intent(out) :: span         !! of the linkage [m]; 0: there is none
+    real(wp), intent(inout) :: usual(:)   !! (groups) largest determinants there
+
+    integer, parameter :: most_places = 100
+    real(wp), parameter :: beside = 10.0_wp !! [deg]
+    real(wp), allocatable :: places(:)
+    type(pose_t) :: pose, best
+    type(error_t), allocatable :: error
+    real(wp) :: correction
+    integer :: i, number
+
+    span = 0.0_wp
+    number = 0
+    places = starts(::1 + (size(starts) - 1)/most_places)
+    if (linkage%drives(1)%kind == drives_angle) places = [places, starts(1) + beside, &
+      starts(1) - beside]
+    do i = 1, size(places)
+      call place_groups(linkage, places(i), pose, correction, error)
+      if (allocated(error)) then
+        deallocate (error)
+        cycle
+      end if
+      usual = max(usual, abs(pose%sine))
+      if (number == 0) then
+        number = i
+        best = pose
+      else if (is_near_change(best%sine, usual) .and. .not. is_near_change(pose%sine, usual)) then
+        number = i
+        best = pose
+      end if
+    end do
+    if (number == 0) return
+    if (any(abs(best%sine) < dead_point_sine)) return
+    span = linkage_span(linkage, best)
+    first = new_station(linkage, places(number), best)
+  end subroutine begin_at_place
+
+  !> The way from a place in both senses, or over a whole period.
+  pure subroutine follow(linkage, first, span, usual, through, path)
+    type(linkage_t), intent(in) :: linkage
+    type(station_t), intent(in) :: first
+    real(wp), intent(in) :: span
+    real(wp), intent(in) :: usual(:)
+    logical, intent(in) :: through !! change points
+    type(path_t), intent(out) :: path
+
+    type(path_t) :: up, down
+
+    call march(linkage, first, 1.0_wp, span, usual, through, up)
+    if (up%period > 0.0_wp) then
+      path = up
+      return
+    end if
+    call march(linkage, first, -1.0_wp, span, usual, through, down)
+    call join(down, up, path)
+    ! Within less than a turn an angle is the same with and without whole turns.
+    if (linkage%drives(1)%kind == drives_angle .and. path%crank(size(path%crank)) - &
+      path%crank(1) < 360.0_wp) path%period = 360.0_wp
+  end subroutine follow
 
   !> The largest extent of a linkage [m].
   pure function linkage_span(linkage, pose) result(span)
@@ -137,101 +323,86 @@ contains
   end function linkage_span
 
   !> Follows the linkage in one sense until it repeats its pose, ends, or has made enough turns.
-  pure subroutine march(linkage, start, first_pose, sense, span, path)
+  pure subroutine march(linkage, first, sense, span, first_usual, through, path)
     type(linkage_t), intent(in) :: linkage
-    real(wp), intent(in) :: start
-    type(pose_t), intent(in) :: first_pose
-    real(wp), intent(in) :: sense !! +1: up; −1: down
-    real(wp), intent(in) :: span  !! of the linkage [m]
+    type(station_t), intent(in) :: first
+    real(wp), intent(in) :: sense          !! +1: up; −1: down
+    real(wp), intent(in) :: span           !! of the linkage [m]
+    real(wp), intent(in) :: first_usual(:) !! (groups) sizes of determinants, as far as known
+    logical, intent(in) :: through         !! change points
     type(path_t), intent(out) :: path
 
-    type(pose_t) :: pose, next
-    type(kinematic_coefficients_t) :: coefficients
-    real(wp) :: c, step, most_step, goal, unit
+    type(station_t) :: here, next, last
+    type(bridge_t) :: bridge
+    real(wp) :: usual(size(first_usual)), step, most_step, goal, unit
     integer :: halvings, stations, turns
-    logical :: is_angle, is_good
+    logical :: is_angle, is_close, is_good, found
 
     is_angle = linkage%drives(1)%kind == drives_angle
     most_step = length_step*span
     if (is_angle) most_step = angle_step
     unit = 1.0_wp
     if (is_angle) unit = degree
-    pose = first_pose
-    c = start
-    coefficients = find_kinematic_coefficients(linkage, pose)
+    usual = max(first_usual, abs(first%pose%sine))
+    here = first
     stations = 0
-    call append_station(path, stations, c, pose, coefficients, unit)
+    allocate (path%bridges(0))
+    call append_station(path, stations, here, unit)
     halvings = 0
     turns = 1
-    goal = start + sense*360.0_wp
-    if (any(abs(pose%sine) < dead_point_sine)) then
+    goal = first%crank + sense*360.0_wp
+    if (any(abs(here%pose%sine) < dead_point_sine)) then
       call trim_path(path, stations)
       return
     end if
+    is_close = is_near_change(here%pose%sine, usual)
     do
       step = sense*most_step/2.0_wp**halvings
       if (is_angle) then
         ! A station stands exactly at every whole turn.
-        if (sense*(goal - c - step) < 1.0e-6_wp*most_step) step = goal - c
+        if (sense*(goal - here%crank - step) < 1.0e-6_wp*most_step) step = goal - here%crank
       end if
-      call make_step(linkage, c, pose, coefficients, step, unit, next, is_good)
+      call take_step(linkage, here, step, unit, next, is_good)
+      if (is_good .and. .not. is_close) is_good = .not. is_near_change(next%pose%sine, usual)
+      if (.not. (is_good .or. is_close)) then
+        found = through
+        if (through) call find_bridge(linkage, here, sense*most_step, unit, usual, span, &
+          reference_point(linkage), bridge, last, next, found)
+        if (found) then
+          path%bridges = [path%bridges, bridge]
+          call append_station(path, stations, last, unit)
+          is_good = .true.
+          step = next%crank - here%crank
+        end if
+        is_close = .not. found
+      end if
       if (.not. is_good) then
         halvings = halvings + 1
         if (halvings > most_halvings) exit
         cycle
       end if
-      c = c + step
-      if (is_angle .and. abs(c - goal) < 1.0e-9_wp) c = goal
-      pose = next
-      coefficients = find_kinematic_coefficients(linkage, pose)
-      call append_station(path, stations, c, pose, coefficients, unit)
+      here = next
+      if (is_angle .and. abs(here%crank - goal) < 1.0e-9_wp) here%crank = goal
+      call append_station(path, stations, here, unit)
+      usual = max(usual, abs(here%pose%sine))
+      if (is_close) is_close = is_near_change(here%pose%sine, usual)
       halvings = max(0, halvings - 1)
       if (is_angle) then
-        if (abs(c - goal) > 0.0_wp) cycle
-        if (repeats(pose, first_pose, span)) then
+        if (abs(here%crank - goal) > 0.0_wp) cycle
+        if (repeats(here%pose, first%pose, span)) then
           ! Whole turns to the last digit, wherever they start.
           path%period = turns*360.0_wp
           exit
         end if
         if (turns >= most_turns) exit
         turns = turns + 1
-        goal = start + sense*turns*360.0_wp
+        goal = first%crank + sense*turns*360.0_wp
       else
-        if (abs(c - start) > 10.0_wp*span) exit
+        if (abs(here%crank - first%crank) > 10.0_wp*span) exit
       end if
     end do
     call trim_path(path, stations)
   end subroutine march
-
-  !> One step along the path; not good if it may have left the branch.
-  pure subroutine make_step(linkage, c, pose, coefficients, step, unit, next, is_good)
-    type(linkage_t), intent(in) :: linkage
-    real(wp), intent(in) :: c    !! coordinate before the step
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: coefficients
-    real(wp), intent(in) :: step
-    real(wp), intent(in) :: unit !! of the coordinate in [rad] or [m]
-    type(pose_t), intent(out) :: next
-    logical, intent(out) :: is_good
-
-    type(error_t), allocatable :: error
-    real(wp) :: d, angle, correction
-    integer :: b
-
-    d = step*unit
-    next = pose
-    next%pin = pose%pin + d*coefficients%pin + 0.5_wp*d**2*coefficients%pin_slope
-    do b = 1, size(pose%direction, 2)
-      angle = d*coefficients%turn(b) + 0.5_wp*d**2*coefficients%turn_slope(b)
-      next%direction(:, b) = cos(angle)*pose%direction(:, b) + sin(angle)*normal_to( &
-        pose%direction(:, b))
-    end do
-    call place_groups(linkage, c + step, next, correction, error)
-    is_good = .not. allocated(error)
-    if (.not. is_good) return
-    is_good = all(next%sine*pose%sine > 0.0_wp) .and. all(abs(next%sine) > &
-      dead_point_sine) .and. correction <= 0.1_wp*maxval(abs(next%pin - pose%pin))
-  end subroutine make_step
 
   !> Whether all pins and bodies are where they were.
   pure function repeats(pose, first, span)
@@ -244,43 +415,48 @@ contains
   end function repeats
 
   !> Adds a station; room grows by doubling.
-  pure subroutine append_station(path, stations, c, pose, coefficients, unit)
+  pure subroutine append_station(path, stations, station, unit)
     type(path_t), intent(inout) :: path
     integer, intent(inout) :: stations
-    real(wp), intent(in) :: c
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: coefficients
+    type(station_t), intent(in) :: station
     real(wp), intent(in) :: unit
 
     if (.not. allocated(path%crank)) then
-      call resize(path, 256, stations, size(pose%pin, 2), size(pose%direction, 2))
+      call resize(path, 256, stations, station%pose)
     else if (stations == size(path%crank)) then
-      call resize(path, 2*stations, stations, size(pose%pin, 2), size(pose%direction, 2))
+      call resize(path, 2*stations, stations, station%pose)
     end if
     stations = stations + 1
-    path%crank(stations) = c
-    path%pin(:, :, stations) = pose%pin
-    path%direction(:, :, stations) = pose%direction
-    path%pin_rate(:, :, stations) = unit*coefficients%pin
-    path%turn_rate(:, stations) = unit*coefficients%turn
+    path%crank(stations) = station%crank
+    path%pin(:, :, stations) = station%pose%pin
+    path%direction(:, :, stations) = station%pose%direction
+    path%pin_rate(:, :, stations) = unit*station%coefficients%pin
+    path%turn_rate(:, stations) = unit*station%coefficients%turn
+    path%side(:, stations) = sign(1.0_wp, station%pose%sine)
   end subroutine append_station
 
   !> Gives a path room for a number of stations, and keeps those it has.
-  pure subroutine resize(path, room, stations, pins, bodies)
+  pure subroutine resize(path, room, stations, pose)
     type(path_t), intent(inout) :: path
-    integer, intent(in) :: room, stations, pins, bodies
+    integer, intent(in) :: room, stations
+    type(pose_t), intent(in) :: pose !! any, for its sizes
 
     type(path_t) :: larger
 
     larger%period = path%period
-    allocate (larger%crank(room), larger%pin(2, pins, room), larger%direction(2, bodies, room), &
-      larger%pin_rate(2, pins, room), larger%turn_rate(bodies, room))
+    larger%bridges = path%bridges
+    associate (pins => size(pose%pin, 2), bodies => size(pose%direction, 2))
+      allocate (larger%crank(room), larger%pin(2, pins, room), larger%direction(2, bodies, room), &
+        larger%pin_rate(2, pins, room), larger%turn_rate(bodies, room), &
+        larger%side(size(pose%sine), room))
+    end associate
     if (stations > 0) then
       larger%crank(:stations) = path%crank(:stations)
       larger%pin(:, :, :stations) = path%pin(:, :, :stations)
       larger%direction(:, :, :stations) = path%direction(:, :, :stations)
       larger%pin_rate(:, :, :stations) = path%pin_rate(:, :, :stations)
       larger%turn_rate(:, :stations) = path%turn_rate(:, :stations)
+      larger%side(:, :stations) = path%side(:, :stations)
     end if
     path = larger
   end subroutine resize
@@ -290,7 +466,12 @@ contains
     type(path_t), intent(inout) :: path
     integer, intent(in) :: stations
 
-    call resize(path, stations, stations, size(path%pin, 2), size(path%direction, 2))
+    path%crank = path%crank(:stations)
+    path%pin = path%pin(:, :, :stations)
+    path%direction = path%direction(:, :, :stations)
+    path%pin_rate = path%pin_rate(:, :, :stations)
+    path%turn_rate = path%turn_rate(:, :stations)
+    path%side = path%side(:, :stations)
   end subroutine trim_path
 
   !> The way down, turned round, and the way up; the station where both begin once.
@@ -298,28 +479,28 @@ contains
     type(path_t), intent(in) :: down, up
     type(path_t), intent(out) :: path
 
-    integer :: n, i, at, stations
+    integer :: i, n
 
     n = size(down%crank)
-    stations = n + size(up%crank) - 1
-    call resize(path, stations, 0, size(up%pin, 2), size(up%direction, 2))
-    do i = 1, stations
-      if (i < n) then
-        at = n + 1 - i
-        path%crank(i) = down%crank(at)
-        path%pin(:, :, i) = down%pin(:, :, at)
-        path%direction(:, :, i) = down%direction(:, :, at)
-        path%pin_rate(:, :, i) = down%pin_rate(:, :, at)
-        path%turn_rate(:, i) = down%turn_rate(:, at)
-      else
-        at = i - n + 1
-        path%crank(i) = up%crank(at)
-        path%pin(:, :, i) = up%pin(:, :, at)
-        path%direction(:, :, i) = up%direction(:, :, at)
-        path%pin_rate(:, :, i) = up%pin_rate(:, :, at)
-        path%turn_rate(:, i) = up%turn_rate(:, at)
-      end if
-    end do
+    path%crank = [down%crank(n:2:-1), up%crank]
+    path%bridges = [(down%bridges(i), i=size(down%bridges), 1, -1), (up%bridges(i), i=1, &
+      size(up%bridges))]
+    associate (stations => size(path%crank), pins => size(up%pin, 2), &
+        bodies => size(up%turn_rate, 1))
+      allocate (path%pin(2, pins, stations), path%direction(2, bodies, stations), &
+        path%pin_rate(2, pins, stations), path%turn_rate(bodies, stations), &
+        path%side(size(up%side, 1), stations))
+    end associate
+    path%pin(:, :, :n - 1) = down%pin(:, :, n:2:-1)
+    path%pin(:, :, n:) = up%pin
+    path%direction(:, :, :n - 1) = down%direction(:, :, n:2:-1)
+    path%direction(:, :, n:) = up%direction
+    path%pin_rate(:, :, :n - 1) = down%pin_rate(:, :, n:2:-1)
+    path%pin_rate(:, :, n:) = up%pin_rate
+    path%turn_rate(:, :n - 1) = down%turn_rate(:, n:2:-1)
+    path%turn_rate(:, n:) = up%turn_rate
+    path%side(:, :n - 1) = down%side(:, n:2:-1)
+    path%side(:, n:) = up%side
   end subroutine join
 
 end module linkage_paths

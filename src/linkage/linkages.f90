@@ -12,10 +12,11 @@ module linkages
   private
 
   public :: linkage_t, body_t, body_pin_t, lump_t, forced_place_t, slider_t, turn_t, drive_t, &
-    drawing_t, equation_t, group_t, path_t, shaft_t
+    drawing_t, equation_t, group_t, path_t, bridge_t, shaft_t
   public :: new_four_bar, mobility, reference_point, is_dyad_linkage, cross, normal_to, turned, &
     turned_back
   public :: drives_nothing, drives_angle, drives_slider, drives_length
+  public :: changes_through, changes_stop, changes_branch
   public :: demands_length, demands_angle, demands_line, demands_turn, demands_drive
   public :: groups_dyad, groups_carried, groups_on_line, groups_through_pin, groups_two_lines, &
     groups_cross_slide, groups_turned, groups_spanned, groups_placed, groups_by_newton, &
@@ -25,6 +26,10 @@ module linkages
   !! body.
   integer, parameter :: drives_nothing = 0, drives_angle = 1, drives_slider = 2, &
     drives_length = 3
+
+  !> What happens at a change point: the linkage goes on smoothly; its way ends; each position is on
+  !! the side that its groups have.
+  integer, parameter :: changes_through = 1, changes_stop = 2, changes_branch = 3
 
   !> What an equation demands.
   integer, parameter :: demands_length = 1, demands_angle = 2, demands_line = 3, demands_turn = 4, &
@@ -163,14 +168,34 @@ module linkages
                                                   !! `groups_dyad` and `groups_carried`
   end type group_t
 
-  !> The way of a linkage with groups that only iterations place, from the drawing over whole turns.
+  !> A piece of the path about a change point, where equations depend on each other and two smooth
+  !! ways cross: what lies between is the polynomial through nodes on both sides.
+  type :: bridge_t
+    real(wp) :: from = 0.0_wp, to = 0.0_wp       !! where it holds [deg] or [m]
+    real(wp) :: change = 0.0_wp                  !! the change point [deg] or [m]
+    real(wp) :: error = 0.0_wp                   !! estimated, of places per size of the linkage
+    integer :: group = 0                         !! whose determinant is 0 there
+    logical :: is_jump = .false.                 !! on the sides of groups it is no corner but a jump:
+                                                 !! the pins that carry a dyad meet
+    real(wp), allocatable :: crank(:)            !! (nodes) ascending [deg] or [m]
+    real(wp), allocatable :: pin(:, :, :)        !! (2, pins, nodes) from `reference_point` [m]
+    real(wp), allocatable :: direction(:, :, :)  !! (2, bodies, nodes)
+    real(wp), allocatable :: sine(:, :)          !! (groups, nodes) as in `pose_t`
+  end type bridge_t
+
+  !> The way of a linkage with change points, or with groups that only iterations place: from the
+  !! drawing over whole turns.
   type :: path_t
     real(wp), allocatable :: crank(:)            !! (stations) ascending [deg] or [m]
     real(wp), allocatable :: pin(:, :, :)        !! (2, pins, stations) from `reference_point` [m]
     real(wp), allocatable :: direction(:, :, :)  !! (2, bodies, stations)
     real(wp), allocatable :: pin_rate(:, :, :)   !! (2, pins, stations) per crank [m/deg], [-]
     real(wp), allocatable :: turn_rate(:, :)     !! (bodies, stations) per crank [rad/deg], [rad/m]
+    real(wp), allocatable :: side(:, :)          !! (groups, stations) as `side` of `group_t`
+    type(bridge_t), allocatable :: bridges(:)    !! between stations, ascending; over change points
+                                                 !! that are known, without stations too
     real(wp) :: period = 0.0_wp                  !! after which it repeats [deg]; 0: it does not
+    logical :: stops = .false.                   !! nothing closes beyond its ends
   end type path_t
 
   !> A balance shaft, geared to the first drive: with the coordinate c of this one its mass is in

@@ -5,7 +5,15 @@ module pose_types
   implicit none (type, external)
   private
 
-  public :: pose_t, drawn_pose, arm_to_pin, pins_of_body, place_of_pin, way_length
+  public :: pose_t, kinematic_coefficients_t, drawn_pose, arm_to_pin, pins_of_body, place_of_pin, way_length
+
+  !> First and second derivatives with respect to the crank angle θ2.
+  type :: kinematic_coefficients_t
+    real(wp), allocatable :: turn(:)          !! (bodies) h [-]
+    real(wp), allocatable :: turn_slope(:)    !! (bodies) h' [-]
+    real(wp), allocatable :: pin(:, :)        !! (2, pins) dx/dθ2 [m]
+    real(wp), allocatable :: pin_slope(:, :)  !! (2, pins) d²x/dθ2² [m]
+  end type kinematic_coefficients_t
 
   !> Positions of the pins and directions of the bodies.
   type :: pose_t
@@ -14,8 +22,10 @@ module pose_types
     real(wp), allocatable :: pin(:, :)       !! (2, pins) positions [m]
     real(wp), allocatable :: direction(:, :) !! (2, bodies) unit vectors, first → last pin
     real(wp), allocatable :: sine(:)         !! (groups) of a dyad: of the angle from base 1 →
-                                             !! middle to base 2 → middle; of others: the scaled
-                                             !! determinant of their equations; 0 at a dead point
+                                             !! middle to base 2 → middle; of others: how
+                                             !! independent their equations are; 0 at a dead point
+    type(kinematic_coefficients_t), allocatable :: coefficients !! on a bridge, where equations do
+                                             !! not give them
   end type pose_t
 
 contains

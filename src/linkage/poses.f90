@@ -1,6 +1,7 @@
 !> Positions of the links at a crank angle.
 module poses
   use block_ends, only: refuse_leaving_block
+  use bridges, only: bridge_at, cross_bridge, place_on_path
   use dyad_places, only: place_dyad
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
   use group_equations, only: drive_direction
@@ -14,8 +15,8 @@ module poses
   implicit none (type, external)
   private
 
-  public :: pose_t, find_pose, place_links, place_parts, place_groups, arm_to_middle, &
-    arm_to_place, body_angle, transmission_angle, dead_point_sine
+  public :: pose_t, find_pose, find_moving_pose, refuse_change_point, place_links, place_parts, &
+    place_groups, arm_to_middle, arm_to_place, body_angle, transmission_angle, dead_point_sine
 
   !> Where |sin(θ4 − θ3)| is below this, near a dead point, the motion is not computed: velocities
   !! grow like 1/sin(θ4 − θ3).
@@ -23,11 +24,36 @@ module poses
 
 contains
 
-  !> Places every pin for a crank angle at which the crank can move the links.
+  !> Places every pin for a crank angle at which the crank can move the links, and all forces in the
+  !! joints are determined.
   !!
-  !! Errors: those of `place_links`; a dead point (`|sin(θ4 − θ3)|`, or the scaled determinant of
-  !! another group, below 1e-6).
+  !! Errors: those of `find_moving_pose`; a change point.
   pure subroutine find_pose(linkage, crank, pose, error)
+    type(linkage_t), intent(in) :: linkage           !! bodies, groups and what joins them
+    real(wp), intent(in) :: crank                    !! coordinate of the first drive [deg] or [m]
+    type(pose_t), intent(out) :: pose                !! incomplete if out of reach
+    type(error_t), allocatable, intent(out) :: error !! why the links cannot be moved, or solved for
+
+    call find_moving_pose(linkage, crank, pose, error)
+    if (.not. allocated(error)) call refuse_change_point(pose, error)
+  end subroutine find_pose
+
+  !> An error at a change point: the linkage moves on smoothly, but rigid links do not determine the
+  !! forces in its joints.
+  pure subroutine refuse_change_point(pose, error)
+    type(pose_t), intent(in) :: pose !! of all groups
+    type(error_t), allocatable, intent(inout) :: error
+
+    if (any(abs(pose%sine) < dead_point_sine)) call set_error(error, error_of_dead_point, &
+      "change point: the linkage moves on smoothly, but the forces in its joints are not "// &
+      "determined")
+  end subroutine refuse_change_point
+
+  !> Places every pin for a crank angle at which the crank can move the links, change points too.
+  !!
+  !! Errors: those of `place_links`; a dead point (`|sin(θ4 − θ3)|`, or what it is of another group,
+  !! below 1e-6).
+  pure subroutine find_moving_pose(linkage, crank, pose, error)
     type(linkage_t), intent(in) :: linkage           !! bodies, groups and what joins them
     real(wp), intent(in) :: crank                    !! angle of the driven body from the global x
                                                      !! axis [deg], or coordinate of the first
@@ -39,6 +65,7 @@ contains
 
     call place_links(linkage, crank, pose, error)
     if (allocated(error)) return
+    if (allocated(pose%coefficients)) return
     do i = 1, size(pose%sine)
       if (abs(pose%sine(i)) >= dead_point_sine) cycle
       if (is_dyad_linkage(linkage) .and. size(linkage%groups) == 1) then
@@ -51,7 +78,7 @@ contains
       end if
       return
     end do
-  end subroutine find_pose
+  end subroutine find_moving_pose
 
   !> The first body of a group; 0 if it has none.
   pure function a_body_of(group) result(body)
@@ -97,33 +124,51 @@ contains
     type(pose_t), intent(out) :: pose                !! incomplete after an error
     type(error_t), allocatable, intent(out) :: error !! why there is no pose
 
-    real(wp) :: correction, allowed
+    real(wp) :: at, correction, allowed
+    real(wp), allocatable :: side(:)
+    integer :: bridge
 
     if (.not. allocated(linkage%path%crank)) then
       call place_groups(linkage, crank, pose, correction, error)
-    else
-      call start_on_path(linkage%path, crank, pose, allowed, error)
-      if (allocated(error)) return
-      call place_groups(linkage, crank, pose, correction, error)
-      if (allocated(error)) return
-      if (correction > allowed) call set_error(error, error_of_numerics, &
-        "the position was not found by iterations: they left the path")
+      return
     end if
+    associate (path => linkage%path)
+      at = place_on_path(path, crank)
+      bridge = bridge_at(path, at)
+      if (bridge > 0) then
+        call cross_bridge(linkage, path%bridges(bridge), at, pose)
+        pose%crank = crank
+        return
+      end if
+      call start_on_path(path, at, pose, side, allowed, error)
+    end associate
+    if (allocated(error)) then
+      if (linkage%path%stops .or. any(linkage%groups%kind == groups_by_newton)) return
+      ! Another range: dyads close there without a way from the drawing.
+      deallocate (error)
+      call place_groups(linkage, crank, pose, correction, error)
+      return
+    end if
+    call place_groups(linkage, crank, pose, correction, error, side)
+    if (allocated(error)) return
+    if (correction > allowed) call set_error(error, error_of_numerics, &
+      "the position was not found by iterations: they left the path")
   end subroutine place_parts
 
   !> Places the crank, and group after group. Positions are relative to `reference_point`, so that a
   !! far-off origin of the drawing costs no digits.
   !!
   !! Errors: those of `place_links`.
-  pure subroutine place_groups(linkage, crank, pose, correction, error)
+  pure subroutine place_groups(linkage, crank, pose, correction, error, side)
     type(linkage_t), intent(in) :: linkage  !! bodies, groups and what joins them
     real(wp), intent(in) :: crank           !! coordinate of the first drive [deg] or [m]
     type(pose_t), intent(inout) :: pose     !! near by, for groups that iterations place; without
                                             !! such groups it may be empty. The pose
     real(wp), intent(out) :: correction     !! largest of iterations [m]
     type(error_t), allocatable, intent(inout) :: error !! why there is no pose
+    real(wp), intent(in), optional :: side(:) !! (groups) in place of their own
 
-    real(wp) :: origin(2), largest
+    real(wp) :: origin(2), largest, its_side
     integer :: i, iterations
 
     origin = reference_point(linkage)
@@ -145,15 +190,17 @@ contains
     end if
     do i = 1, size(linkage%groups)
       associate (group => linkage%groups(i))
+        its_side = group%side
+        if (present(side)) its_side = side(i)
         if (group%kind == groups_dyad) then
-          call place_dyad(linkage, group, linkage%bodies(group%body)%length, pose, pose%sine(i), &
-            error)
+          call place_dyad(linkage, group, linkage%bodies(group%body)%length, its_side, pose, &
+            pose%sine(i), error)
         else if (group%kind == groups_by_newton) then
           call improve_group(linkage, group, origin, crank, pose, pose%sine(i), largest, &
             iterations, error)
           correction = max(correction, largest)
         else
-          call place_group(linkage, group, origin, crank, pose, pose%sine(i), error)
+          call place_group(linkage, group, its_side, origin, crank, pose, pose%sine(i), error)
         end if
       end associate
       if (allocated(error)) return
@@ -164,25 +211,26 @@ contains
   !! and the rates there.
   !!
   !! Errors: the position lies beyond the ends of the path.
-  pure subroutine start_on_path(path, crank, pose, allowed, error)
+  pure subroutine start_on_path(path, c, pose, side, allowed, error)
     type(path_t), intent(in) :: path    !! with stations
-    real(wp), intent(in) :: crank       !! coordinate of the first drive [deg] or [m]
+    real(wp), intent(in) :: c           !! coordinate of the first drive, without whole periods
+                                        !! [deg] or [m]
     type(pose_t), intent(out) :: pose   !! relative to the reference point
+    real(wp), allocatable, intent(out) :: side(:) !! (groups) as `side` of `group_t`
     real(wp), intent(out) :: allowed    !! correction: a quarter of the way between the stations [m]
     type(error_t), allocatable, intent(inout) :: error !! out of reach
 
-    real(wp) :: c, t, h, weight(2), slope_weight(2)
+    real(wp) :: t, h, weight(2), slope_weight(2)
     integer :: k, b, last
 
     last = size(path%crank)
-    c = crank
-    if (path%period > 0.0_wp) c = path%crank(1) + modulo(crank - path%crank(1), path%period)
     allowed = 0.0_wp
     if (c < path%crank(1) - slack(path) .or. c > path%crank(last) + slack(path)) then
       call set_error(error, error_of_reach, "the position is out of reach")
       return
     end if
     k = station_before(path%crank, c)
+    side = path%side(:, k)
     h = path%crank(k + 1) - path%crank(k)
     t = (c - path%crank(k))/h
     weight = [(1.0_wp + 2.0_wp*t)*(1.0_wp - t)**2, t**2*(3.0_wp - 2.0_wp*t)]

@@ -6,12 +6,12 @@ module positions
   use linkage_paths, only: period_of
   use linkages, only: linkage_t
   use load_tables, only: load_period, refuse_beyond_tables
-  use poses, only: find_pose, pose_t
+  use poses, only: find_moving_pose, pose_t, refuse_change_point
   use sorting, only: ascending_order
   implicit none (type, external)
   private
 
-  public :: positions_t, state_t, find_positions, list_positions, find_state, by_crank_angle
+  public :: positions_t, state_t, refuse_change_points, find_positions, list_positions, find_state, by_crank_angle
 
   !> The linkage at one crank angle.
   type :: state_t
@@ -94,18 +94,33 @@ contains
 
   !> Pose and kinematic coefficients at the crank angle of a state.
   !!
-  !! Errors, left in the state: those of `find_pose`; a position beyond the ends of a table.
+  !! Errors, left in the state: those of `find_moving_pose`; a position beyond the ends of a table.
   pure subroutine find_state(linkage, state)
     type(linkage_t), intent(in) :: linkage !! lengths, pins and dyads
     type(state_t), intent(inout) :: state  !! with its crank angle
 
     allocate (state%pose, state%coefficients)
-    call find_pose(linkage, state%crank, state%pose, state%error)
+    call find_moving_pose(linkage, state%crank, state%pose, state%error)
     if (.not. allocated(state%error)) call refuse_beyond_tables(linkage, state%pose, &
       [0.0_wp, 0.0_wp], state%error)
     if (.not. allocated(state%error)) state%coefficients = &
       find_kinematic_coefficients(linkage, state%pose)
   end subroutine find_state
+
+  !> An error at change points: the linkage is moved through them, but forces in its joints, and
+  !! vibrations, are not determined there.
+  pure subroutine refuse_change_points(positions)
+    type(positions_t), intent(inout) :: positions !! with their states
+
+    integer :: i
+
+    do i = 1, size(positions%states)
+      associate (state => positions%states(i))
+        if (allocated(state%error)) cycle
+        call refuse_change_point(state%pose, state%error)
+      end associate
+    end do
+  end subroutine refuse_change_points
 
   !> Numbers of all states in ascending order of their crank angles from 0° to 360°.
   pure function by_crank_angle(positions) result(states)

@@ -10,9 +10,27 @@ module drawn_cranks
   implicit none (type, external)
   private
 
-  public :: drawn_crank
+  public :: starting_cranks
 
 contains
+
+  !> Coordinates of the first drive from which the linkage may be followed [deg] or [m]: that of the
+  !! drawing, if there is one, then those of the deck, in its order.
+  pure function starting_cranks(model, linkage) result(cranks)
+    type(model_t), intent(in) :: model     !! its positions
+    type(linkage_t), intent(in) :: linkage !! with its drives, planned
+    real(wp), allocatable :: cranks(:)     !! one at least
+
+    integer :: motion
+
+    allocate (cranks(0))
+    if (any(linkage%drawing%is_drawn .and. .not. linkage%is_ground) .or. model%is_structure) &
+      cranks = [drawn_crank(model, linkage)]
+    cranks = [cranks, model%crank%value]
+    motion = report_number(model, "motion")
+    if (motion > 0) cranks = [cranks, model%reports(motion)%start_angle]
+    if (size(cranks) == 0) cranks = [0.0_wp]
+  end function starting_cranks
 
   !> The coordinate of the first drive in the drawing [deg] or [m]; 0 where it is not drawn. A
   !! drawing shows no whole turns, but with drives geared to the first one they matter: those are

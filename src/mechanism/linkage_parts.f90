@@ -4,7 +4,7 @@ module linkage_parts
   use constants, only: degree
   use drive_cards, only: branch_backward, branch_left, branch_right, drive_ram, &
     drive_slider, moves_along
-  use drawn_cranks, only: drawn_crank
+  use drawn_cranks, only: starting_cranks
   use errors, only: error_t
   use group_equations, only: direction_at
   use kinds, only: wp
@@ -14,7 +14,7 @@ module linkage_parts
   use linkage_paths, only: follow_path
   use linkages, only: body_t, drives_angle, drives_length, drives_nothing, drives_slider, &
     linkage_t
-  use models, only: is_four_bar, is_pin, model_t
+  use models, only: is_four_bar, is_pin, model_t, rule_at_change_points
   use name_index, only: find_name, name_index_t, new_name_index
   use plan_problems, only: plan_problem_t
   use plan_sides, only: side_t
@@ -60,8 +60,8 @@ contains
     call plan_linkage(assembly%linkage, sides, assembly%problem, body_order, pin_order)
     if (is_four_bar(model)) assembly%linkage%bodies(2)%heading = [1.0_wp, 0.0_wp]
     if (allocated(assembly%problem)) return
-    call follow_path(assembly%linkage, drawn_crank(model, assembly%linkage), assembly%nearest, &
-      assembly%error)
+    call follow_path(assembly%linkage, starting_cranks(model, assembly%linkage), &
+      rule_at_change_points(model), assembly%nearest, assembly%error)
   end subroutine assemble_linkage
 
   !> The pins of all links in the order of the deck, points of links that other cards use as pins,

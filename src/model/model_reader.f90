@@ -101,6 +101,7 @@ contains
     call refuse_second_cards(cards, diagnostics)
     call read_system(cards, diagnostics, model%units, model%outputs, chooses_rate)
     call read_model_cards(cards, reports, diagnostics, model)
+    model%has_branch_card = has_card(cards, "BRANCH")
     if (.not. any([has_card(cards, "DRIVE"), has_card(cards, "CRANK"), has_card(cards, "TIME"), &
       has_card(cards, "MOTOR"), has_card(cards, "LAW"), .not. describes_structure(model)])) &
       call take_structure(model)

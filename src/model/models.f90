@@ -38,7 +38,8 @@ module models
     accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
     link_line_density, speed_in_table, speed_in_words, is_four_bar, is_pin, pivots, &
-    is_end_of_spring, drives_length, balances, has_law
+    is_end_of_spring, drives_length, balances, has_law, &
+    rule_at_change_points
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -86,6 +87,7 @@ module models
                                                 !! link, or the pin of the driven slider
     integer :: branch = branch_open             !! of a four-bar: branch_open or branch_crossed
     type(token_t) :: branch_word                !! keyword of BRANCH open|crossed
+    logical :: has_branch_card = .false.        !! of any form
     type(branch_t), allocatable :: branches(:)  !! BRANCH cards about pins; of a four-bar
                                                 !! the one that says its branch
     type(value_list_t) :: crank                 !! positions of the first drive: angles [deg], of a
@@ -358,6 +360,17 @@ contains
 
     has = allocated(model%law_rates)
   end function has_law
+
+  !> What happens at change points, in the order of the words of DRIVE. Where a BRANCH card is
+  !! written, each position is on its side.
+  pure function rule_at_change_points(model) result(rule)
+    type(model_t), intent(in) :: model !! as read
+    integer :: rule
+
+    rule = merge(3, 1, model%has_branch_card)
+    if (size(model%drives) == 0) return
+    if (model%drives(1)%change_points > 0) rule = model%drives(1)%change_points
+  end function rule_at_change_points
 
   !> Whether any report has a row for every crank angle; true without REPORT cards. A report that
   !! cannot be read does not count.

@@ -61,7 +61,10 @@ contains
 
     do i = 1, size(variant%found%limits%low(r)%at)
       associate (point => variant%found%limits%low(r)%at(i))
-        if (point%is_dead) then
+        if (point%is_change) then
+          call put(variant, layout, rows, part_of_group(variant, point%group), "change_point", &
+            point%crank, shown_crank(variant, point%crank), of_drive=.true.)
+        else if (point%is_dead) then
           call put(variant, layout, rows, part_of_group(variant, point%group), "dead_point", &
             point%crank, shown_crank(variant, point%crank), of_drive=.true.)
         else
@@ -131,6 +134,11 @@ contains
       case default
         greatest = "greatest_pressure"
       end select
+      ! A constant has no limits.
+      if (swing /= "" .and. .not. x%greatest > x%least) then
+        call put_value(trim(swing), x%at_least, 0.0_wp)
+        return
+      end if
       if (least /= "") call put_value(trim(least), x%at_least, x%least)
       call put_value(trim(greatest), x%at_greatest, x%greatest)
       if (swing /= "") call put_value(trim(swing), x%at_greatest, x%greatest - x%least)

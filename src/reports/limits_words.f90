@@ -15,7 +15,8 @@ module limits_words
   public :: limits_notes, limits_names
 
   character(len=*), parameter :: quantity_words(*) = [character(len=22) :: "range_from", &
-    "range_to", "drive_from", "drive_to", "dead_point", "least_determinant", &
+    "range_to", "drive_from", "drive_to", "change_point", "dead_point", &
+    "least_determinant", &
     "turns", "least_angle", "greatest_angle", "swing", "least_place", "greatest_place", "stroke", &
     "time_ratio", "least_transmission", "greatest_transmission", "greatest_pressure"]
 
@@ -62,6 +63,8 @@ contains
         do i = 1, size(found%low(r)%at)
           associate (point => found%low(r)%at(i))
             if (point%is_dead) call append_end(variant, point%crank, point%group, notes)
+            if (point%is_change) call append_end(variant, point%crank, point%group, notes, &
+              "change point, passed smoothly,")
           end associate
         end do
       end do
@@ -69,20 +72,23 @@ contains
   end subroutine append_ends
 
   !> `dead point at 216.87 deg: B by rod and a slider, forward (RRP)`
-  pure subroutine append_end(variant, crank, group, notes)
+  pure subroutine append_end(variant, crank, group, notes, what)
     type(variant_results_t), intent(in) :: variant
     real(wp), intent(in) :: crank
     integer, intent(in) :: group !! number; 0: none, where the linkage has been followed no farther
     type(string_t), allocatable, intent(inout) :: notes(:)
+    character(len=*), intent(in), optional :: what !! is there; absent: a dead point
 
     type(unit_t) :: length
-    character(len=:), allocatable :: unit
+    character(len=:), allocatable :: unit, event
 
     if (group == 0) return
     unit = "deg"
     length = table_unit("length", variant%model%outputs)
     if (moves_along(variant%model%drives(1)%kind)) unit = length%name
-    call append_string(notes, "dead point at "//to_string(shown_crank(variant, crank), 9)//" "// &
+    event = "dead point"
+    if (present(what)) event = what
+    call append_string(notes, event//" at "//to_string(shown_crank(variant, crank), 9)//" "// &
       unit//": "//group_words(variant%mechanism, variant%mechanism%linkage%groups(group)))
   end subroutine append_end
 

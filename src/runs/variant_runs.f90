@@ -9,14 +9,17 @@ module variant_runs
   use kinds, only: wp
   use link_store, only: link_store_t
   use linkage_motion_study, only: begin_linkage_motion, continue_linkage_motion, &
-    finish_linkage_motion, linkage_motion_under_way_t
+    finish_linkage_motion, linkage_motion_request_t, linkage_motion_under_way_t
+  use linkage_paths, only: leave_path
   use linkage_study, only: class_of_other, classify_linkage
+  use linkages, only: linkage_t
   use loci_study, only: follow_loci
   use mechanisms, only: mechanism_t, new_mechanism
   use models, only: has_law, model_t, needs_positions, needs_study
-  use motion_study, only: begin_motion, continue_motion, finish_motion, motion_under_way_t
+  use motion_study, only: begin_motion, continue_motion, finish_motion, motion_request_t, &
+    motion_under_way_t
   use position_study, only: find_all_positions
-  use positions, only: by_crank_angle
+  use positions, only: by_crank_angle, refuse_change_points
   use progress, only: progress_t, show_progress
   use rank_tasks, only: help_with_tasks
   use reach_texts, only: open_linkage_text, reachable_text
@@ -143,6 +146,9 @@ contains
       if (needs_positions(model)) then
         call find_all_positions(linkage, model%crank%value, threads, variant%found%positions, &
           has_law(model))
+        if (needs_study(model, "reactions") .or. needs_study(model, "joints") .or. &
+          needs_study(model, "friction") .or. needs_study(model, "frequencies")) &
+          call refuse_change_points(variant%found%positions)
       else
         call find_all_positions(linkage, none, threads, variant%found%positions)
       end if
@@ -194,10 +200,14 @@ contains
     type(variant_run_t), intent(inout) :: run
 
     type(motion_under_way_t) :: under_way
+    type(motion_request_t) :: request
+    type(linkage_t) :: linkage
 
     associate (mechanism => run%results%mechanism, motion => run%results%found%motion)
-      call begin_motion(motion_request_of(run%results%model), mechanism%linkage, &
-        mechanism%load_elements, under_way, motion)
+      request = motion_request_of(run%results%model)
+      linkage = mechanism%linkage
+      call leave_path(linkage, request%start_angle)
+      call begin_motion(request, linkage, mechanism%load_elements, under_way, motion)
       do while (.not. under_way%is_over)
         call continue_motion(under_way, instants_at_a_time, motion)
         call show_progress(run%progress, motion%count, size(motion%samples))
@@ -211,10 +221,15 @@ contains
     type(variant_run_t), intent(inout) :: run
 
     type(linkage_motion_under_way_t) :: under_way
+    type(linkage_motion_request_t) :: request
+    type(linkage_t) :: linkage
 
     associate (mechanism => run%results%mechanism, motion => run%results%found%linkage_motion)
-      call begin_linkage_motion(linkage_motion_request_of(run%results%model), &
-        mechanism%linkage, mechanism%load_elements, under_way, motion, mechanism%structure_t)
+      request = linkage_motion_request_of(run%results%model)
+      linkage = mechanism%linkage
+      call leave_path(linkage, request%start)
+      call begin_linkage_motion(request, linkage, mechanism%load_elements, under_way, motion, &
+        mechanism%structure_t)
       do while (.not. under_way%is_over)
         call continue_linkage_motion(under_way, instants_at_a_time, motion)
         call show_progress(run%progress, motion%count, size(motion%samples))

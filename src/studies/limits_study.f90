@@ -7,6 +7,7 @@ module limits_study
   use dead_points, only: find_low_points, low_point_t
   use group_equations, only: drive_value, line_offset
   use kinds, only: wp
+  use linkage_paths, only: has_iterations, leave_path
   use linkages, only: drives_angle, groups_by_newton, groups_cross_slide, groups_driven_dyad, &
     groups_dyad, groups_on_line, groups_through_pin, groups_two_lines, linkage_t
   implicit none (type, external)
@@ -134,8 +135,9 @@ contains
     integer :: d, r
 
     found = drive_range_t(crank=[inside, inside])
-    if (allocated(linkage%path%crank)) return
+    if (has_iterations(linkage)) return
     alone = linkage
+    call leave_path(alone, inside)
     do d = 1, size(alone%drives)
       alone%drives(d)%phase = drive_value(linkage%drives(d), inside)
       alone%drives(d)%ratio = 0.0_wp

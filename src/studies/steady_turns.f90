@@ -2,6 +2,7 @@
 module steady_turns
   use crank_cycle, only: turns_freely
   use crank_limits, only: turns_fully
+  use linkage_paths, only: has_change_points
   use linkages, only: is_dyad_linkage, linkage_t
   implicit none (type, external)
   private
@@ -24,7 +25,7 @@ contains
     if (is_four_bar) then
       has = turns_freely(linkage)
     else
-      has = turns_fully(linkage)
+      has = turns_fully(linkage) .and. .not. has_change_points(linkage)
     end if
   end function has_steady_turn
 

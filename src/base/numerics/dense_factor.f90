@@ -5,7 +5,7 @@ module dense_factor
   implicit none (type, external)
   private
 
-  public :: dense_factor_t, factorize, solve, solve_transposed
+  public :: dense_factor_t, factorize, solve, solve_transposed, least_singular_value
 
   !> `P S A = L U` with row scales S and exchanges P.
   type :: dense_factor_t
@@ -107,5 +107,34 @@ contains
     end do
     x = factor%row_scale*x
   end function solve_transposed
+
+  !> The smallest singular value of the matrix with rows of length one, with the sign of the
+  !! determinant: by how much the rows are independent, however many there are. By inverse
+  !! iteration with AᵀA.
+  pure function least_singular_value(factor) result(value)
+    type(dense_factor_t), intent(in) :: factor
+    real(wp) :: value !! in [−1, 1]; 0: singular
+
+    integer, parameter :: most_iterations = 50
+    real(wp), parameter :: accuracy = 1.0e-8_wp
+    real(wp) :: v(size(factor%lu, 1)), last
+    integer :: i
+
+    value = 0.0_wp
+    if (.not. abs(factor%determinant) > 0.0_wp) return
+    ! Not across any vector that geometry makes likely.
+    v = [(1.0_wp + 0.37_wp*sin(2.3_wp*i), i=1, size(v))]
+    v = v/norm2(v)
+    do i = 1, most_iterations
+      last = value
+      v = solve_transposed(factor, v)/factor%row_scale
+      v = solve(factor, v/factor%row_scale)
+      value = 1.0_wp/sqrt(norm2(v))
+      if (.not. value > 0.0_wp) exit
+      v = v/norm2(v)
+      if (abs(value - last) <= accuracy*value) exit
+    end do
+    value = sign(min(value, 1.0_wp), factor%determinant)
+  end function least_singular_value
 
 end module dense_factor

@@ -18,7 +18,7 @@ module card_table
     logical :: is_single = .false.     !! a deck has at most one
     logical :: is_list = .false.       !! commas may stand between its words
     integer :: least = 0, most = 0     !! words besides the keyword
-    character(len=128) :: pattern = "" !! correct form of the card; its keys end with `=`
+    character(len=160) :: pattern = "" !! correct form of the card; its keys end with `=`
     character(len=96) :: keys = ""     !! separated by blanks, if the pattern does not name them all
     character(len=112) :: choices = "" !! allowed words, separated by blanks
     character(len=20) :: entry = ""    !! default entries, `key=value`, with blanks between them
@@ -89,7 +89,8 @@ module card_table
       help="a block at a pin slides along a GUIDE or LINK; the third word: a link fixed to it"), &
     card_kind_t("DRIVE", least=1, most=4, &
       pattern="DRIVE link, DRIVE link against link, DRIVE pin guide or DRIVE link length, with "// &
-      "[free] [law=] [at=] [ratio= phase=]", choices="against length free", &
+      "[free] [law=] [at=] [ratio= phase=] [change_points=through|stop|branch]", &
+      choices="against length free", &
       help="whose angle, place or length is given; required; further ones: at= or ratio="), &
     card_kind_t("BRANCH", least=1, most=4, &
       pattern="BRANCH open|crossed, BRANCH pin left|right pin pin, or BRANCH pin "// &

@@ -28,6 +28,12 @@ module drive_cards
   integer, parameter :: branch_left = 1, branch_right = 2, branch_forward = 3, branch_backward = 4
   character(len=*), parameter :: branch_words = "left right forward backward"
 
+  !> What happens at change points, in the order of the changes_… constants.
+  character(len=*), parameter :: change_point_words = "through stop branch"
+
+  !> Keys of the first DRIVE alone.
+  character(len=*), parameter :: keys_of_first(2) = [character(len=13) :: "law", "change_points"]
+
   !> One DRIVE card. A word without a line is not on the card.
   type :: drive_t
     type(token_t) :: keyword
@@ -42,6 +48,8 @@ module drive_cards
     real(wp) :: ratio = 0.0_wp     !! position over that of the first drive [SI: 1, m/rad or rad/m]
     type(token_t) :: ratio_word
     type(token_t) :: law           !! of the first drive: the name of its law
+    integer :: change_points = 0   !! of the first drive: number among the words; 0: not given
+    type(token_t) :: change_points_word
     real(wp) :: phase = 0.0_wp     !! position where that of the first drive is 0 [as `at`]
     integer :: link = 0            !! number of `subject` in the model's list; 0: it is a pin
     integer :: against_link = 0    !! number of `against` in the model's list; 0: it is none
@@ -107,6 +115,7 @@ contains
 
     type(token_t) :: nowhere
     logical :: fine, known_keys
+    integer :: i
 
     nowhere = token_t("", 0, 0)
     drive%keyword = card%keyword
@@ -115,6 +124,7 @@ contains
     drive%at_word = nowhere
     drive%ratio_word = nowhere
     drive%law = nowhere
+    drive%change_points_word = nowhere
     call check_form(card, diagnostics, fine, known_keys)
     if (.not. fine) return
     call read_subject(card, diagnostics, drive)
@@ -123,14 +133,16 @@ contains
     drive%has_ratio = has_key(card, "ratio")
     if (card%keyword%line == first%keyword%line .and. card%keyword%column == &
       first%keyword%column) then
-      if (known_keys) call read_law_word(card, diagnostics, drive)
+      if (known_keys) call read_keys_of_first(card, diagnostics, drive)
       return
     end if
-    if (has_value(card, "law")) then
-      call add_error(diagnostics, key_of(card, "law"), "'law=' is for the first DRIVE, and "// &
-        "this one goes with it by 'ratio=' or stands 'at='", first%keyword, "the first is here")
+    do i = 1, size(keys_of_first)
+      if (.not. has_value(card, trim(keys_of_first(i)))) cycle
+      call add_error(diagnostics, key_of(card, trim(keys_of_first(i))), "'"// &
+        trim(keys_of_first(i))//"=' is for the first DRIVE, and this one goes with it by "// &
+        "'ratio=' or stands 'at='", first%keyword, "the first is here")
       return
-    end if
+    end do
     call read_position(card, kind_of_drive(first), system, diagnostics, drive)
     if (.not. known_keys .or. drive%is_free .or. drive%has_at .or. drive%has_ratio) return
     ! That the same thing is driven twice is found by `drive_checks`.
@@ -140,8 +152,8 @@ contains
       "needs 'at=' or 'ratio='", first%words(1), "first driven here")
   end subroutine read_drive
 
-  !> Reads the key of the first DRIVE: `law=`. Errors: keys of further ones.
-  pure subroutine read_law_word(card, diagnostics, drive)
+  !> Reads the keys of the first DRIVE: `law=` and `change_points=`. Errors: keys of further ones.
+  pure subroutine read_keys_of_first(card, diagnostics, drive)
     type(card_t), intent(in) :: card
     type(diagnostics_t), intent(inout) :: diagnostics
     type(drive_t), intent(inout) :: drive
@@ -152,6 +164,10 @@ contains
       associate (entry => card%entries(i))
         if (same_word(entry%key%text, "law")) then
           if (len(entry%value%text) > 0) drive%law = entry%value
+        else if (same_word(entry%key%text, "change_points")) then
+          if (.not. has_value(card, "change_points")) cycle
+          drive%change_points_word = entry%value
+          call read_choice(entry%value, change_point_words, diagnostics, drive%change_points)
         else
           call add_error(diagnostics, entry%key, "the first DRIVE has its positions from CRANK "// &
             "or a law; '"//entry%key%text//"=' is for further ones")
@@ -159,7 +175,7 @@ contains
         end if
       end associate
     end do
-  end subroutine read_law_word
+  end subroutine read_keys_of_first
 
   !> Reads the words of a DRIVE card.
   pure subroutine read_subject(card, diagnostics, drive)

@@ -2,6 +2,7 @@
 module deck_checks
   use balance_turn_checks, only: check_balance_turn
   use beam_mesh, only: moving_unknowns
+  use change_point_checks, only: warn_of_change_points
   use column_checks, only: check_columns
   use crank_cycle, only: turns_freely
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
@@ -58,6 +59,7 @@ contains
       return
     end if
     mechanism = mechanism_of(model, assembly)
+    call warn_of_change_points(model, mechanism, diagnostics)
     if (.not. mechanism%is_four_bar) then
       call check_linkage(model, assembly, mechanism, diagnostics)
       if (.not. allocated(assembly%error)) call check_balance_turn(model, mechanism, diagnostics)

@@ -1,0 +1,122 @@
+!> Places on a bridge: polynomials through nodes on both sides of a change point.
+!!
+!! Weights of a polynomial's value and of its derivatives at a place follow from those through fewer
+!! nodes (B. Fornberg, Math. Comp. 51 (1988) 699).
+module bridges
+  use constants, only: degree
+  use kinds, only: wp
+  use linkages, only: bridge_t, cross, drives_angle, linkage_t, path_t
+  use pose_types, only: pose_t
+  implicit none (type, external)
+  private
+
+  public :: place_on_path, bridge_at, cross_bridge, node_weights
+
+contains
+
+  !> A coordinate without whole periods of the path.
+  pure function place_on_path(path, crank) result(place)
+    type(path_t), intent(in) :: path !! with stations
+    real(wp), intent(in) :: crank    !! [deg] or [m]
+    real(wp) :: place                !! at or behind the first station, if there is a period
+
+    place = crank
+    if (path%period > 0.0_wp) place = path%crank(1) + modulo(crank - path%crank(1), path%period)
+  end function place_on_path
+
+  !> The bridge of a path at a coordinate; 0: there is none.
+  pure function bridge_at(path, crank) result(number)
+    type(path_t), intent(in) :: path !! with stations
+    real(wp), intent(in) :: crank    !! between its first and its last station [deg] or [m]
+    integer :: number
+
+    if (.not. allocated(path%bridges)) then
+      number = 0
+      return
+    end if
+    do number = size(path%bridges), 1, -1
+      if (crank >= path%bridges(number)%from .and. crank <= path%bridges(number)%to) return
+    end do
+  end function bridge_at
+
+  !> The pose at a place of a bridge, with its kinematic coefficients.
+  pure subroutine cross_bridge(linkage, bridge, crank, pose, least, most)
+    type(linkage_t), intent(in) :: linkage !! its drives
+    type(bridge_t), intent(in) :: bridge   !! of this linkage
+    real(wp), intent(in) :: crank          !! between its nodes [deg] or [m]
+    type(pose_t), intent(out) :: pose      !! pins from `reference_point`
+    integer, intent(in), optional :: least, most !! nodes that are used; absent: all
+
+    real(wp) :: d(2, 0:2), length
+    real(wp), allocatable :: weight(:, :)
+    integer :: first, last, b, p, k
+
+    first = 1
+    last = size(bridge%crank)
+    if (present(least)) first = least
+    if (present(most)) last = most
+    allocate (weight(last - first + 1, 0:2))
+    weight = node_weights(bridge%crank(first:last), crank)
+    ! Derivatives are per radian.
+    if (linkage%drives(1)%kind == drives_angle) then
+      weight(:, 1) = weight(:, 1)/degree
+      weight(:, 2) = weight(:, 2)/degree**2
+    end if
+    pose%crank = crank
+    allocate (pose%coefficients)
+    associate (it => pose%coefficients, pins => size(bridge%pin, 2), &
+        bodies => size(bridge%direction, 2))
+      allocate (pose%pin(2, pins), it%pin(2, pins), it%pin_slope(2, pins))
+      allocate (pose%direction(2, bodies), it%turn(bodies), it%turn_slope(bodies))
+      do p = 1, pins
+        pose%pin(:, p) = matmul(bridge%pin(:, p, first:last), weight(:, 0))
+        it%pin(:, p) = matmul(bridge%pin(:, p, first:last), weight(:, 1))
+        it%pin_slope(:, p) = matmul(bridge%pin(:, p, first:last), weight(:, 2))
+      end do
+      do b = 1, bodies
+        do k = 0, 2
+          d(:, k) = matmul(bridge%direction(:, b, first:last), weight(:, k))
+        end do
+        length = norm2(d(:, 0))
+        d = d/length
+        pose%direction(:, b) = d(:, 0)
+        it%turn(b) = cross(d(:, 0), d(:, 1))
+        it%turn_slope(b) = cross(d(:, 0), d(:, 2))
+      end do
+    end associate
+    pose%sine = matmul(bridge%sine(:, first:last), weight(:, 0))
+  end subroutine cross_bridge
+
+  !> Weights of the values at nodes in the value, the first and the second derivative at a place of
+  !! the polynomial through them.
+  pure function node_weights(node, x) result(weight)
+    real(wp), intent(in) :: node(:) !! all different
+    real(wp), intent(in) :: x
+    real(wp) :: weight(size(node), 0:2)
+
+    real(wp) :: product, last_product, way, last(0:2)
+    integer :: i, j, k
+
+    weight = 0.0_wp
+    weight(1, 0) = 1.0_wp
+    last_product = 1.0_wp
+    do i = 2, size(node)
+      product = 1.0_wp
+      last = weight(i - 1, :)
+      do j = 1, i - 1
+        way = node(i) - node(j)
+        product = product*way
+        do k = min(i - 1, 2), 1, -1
+          weight(j, k) = ((node(i) - x)*weight(j, k) - k*weight(j, k - 1))/way
+        end do
+        weight(j, 0) = (node(i) - x)*weight(j, 0)/way
+      end do
+      do k = min(i - 1, 2), 1, -1
+        weight(i, k) = last_product/product*(k*last(k - 1) - (node(i - 1) - x)*last(k))
+      end do
+      weight(i, 0) = -last_product/product*(node(i - 1) - x)*last(0)
+      last_product = product
+    end do
+  end function node_weights
+
+end module bridges

@@ -1,0 +1,234 @@
+!> Change points on the way of a linkage: two smooth ways cross, and the equations of a group depend
+!! on each other. The linkage goes on smoothly.
+!!
+!! What lies between the places before and behind at which they are independent is a bridge: a
+!! polynomial through nodes on both sides. The smooth way fulfils all equations there, those of
+!! redundant links too; where the bridge does not, there is no change point but a limit, or a way
+!! that turns sharply.
+module change_points
+  use bridges, only: cross_bridge
+  use group_equations, only: misfit_of
+  use kinds, only: wp
+  use linkages, only: bridge_t, cross, demands_line, demands_turn, equation_t, linkage_t
+  use plan_equations, only: drive_of_length
+  use path_steps, only: expected_sines, station_t, take_step
+  use pose_types, only: arm_to_pin, pins_of_body, pose_t
+  implicit none (type, external)
+  private
+
+  public :: find_bridge, is_near_change, largest_gap
+
+  !> Equations depend on each other where a determinant is below this share of its usual size.
+  real(wp), parameter :: near = 0.02_wp
+
+  !> Steps that a bridge may span.
+  integer, parameter :: most_steps = 6
+
+  !> Nodes of a bridge on each side.
+  integer, parameter :: nodes = 6
+
+  !> A bridge stands on the equations to this share of the size of the linkage.
+  real(wp), parameter :: most_gap = 1.0e-9_wp
+
+contains
+
+  !> Whether some group is near a point where its equations depend on each other.
+  pure function is_near_change(sine, usual) result(is)
+    real(wp), intent(in) :: sine(:)  !! (groups) as in `pose_t`
+    real(wp), intent(in) :: usual(:) !! (groups) its largest size so far
+    logical :: is
+
+    is = any(abs(sine) < near*usual)
+  end function is_near_change
+
+  !> Looks for a change point in the next steps, and for the bridge over it.
+  pure subroutine find_bridge(linkage, station, step, unit, usual, span, origin, bridge, last, &
+    next, found)
+    type(linkage_t), intent(in) :: linkage   !! with groups and redundancies
+    type(station_t), intent(in) :: station   !! before it, where equations are independent
+    real(wp), intent(in) :: step             !! along the way, with its sign [deg] or [m]
+    real(wp), intent(in) :: unit             !! of the coordinate [rad] or [m]
+    real(wp), intent(in) :: usual(:)         !! (groups) sizes of the determinants
+    real(wp), intent(in) :: span             !! size of the linkage [m]
+    real(wp), intent(in) :: origin(2)        !! from which pins of poses are counted [m]
+    type(bridge_t), intent(out) :: bridge
+    type(station_t), intent(out) :: last, next !! its ends, in the sense of the way
+    logical, intent(out) :: found
+
+    type(station_t) :: far
+    type(bridge_t) :: tried
+    real(wp) :: sine(size(usual)), ahead(size(usual)), spacing
+    integer :: k
+
+    found = .false.
+    sine = station%pose%sine
+    do k = 1, most_steps
+      ahead = expected_sines(linkage, station, k*step, unit)
+      if (all(ahead*sine > 0.0_wp) .or. is_near_change(ahead, usual)) cycle
+      call take_step(linkage, station, k*step, unit, far, found, over_change=.true.)
+      if (found) found = .not. is_near_change(far%pose%sine, usual)
+      if (found) exit
+    end do
+    if (.not. found) return
+    call approach(linkage, station, far%crank, unit, usual, last)
+    call approach(linkage, far, station%crank, unit, usual, next)
+    bridge%error = huge(1.0_wp)
+    spacing = 0.5_wp*step
+    do k = 1, 5
+      call build(linkage, last, next, spacing, unit, span, origin, tried)
+      if (tried%error < bridge%error) bridge = tried
+      spacing = 0.5_wp*spacing
+    end do
+    found = bridge%error <= most_gap
+    if (.not. found) return
+    bridge%group = maxloc(merge(1.0_wp, 0.0_wp, last%pose%sine*next%pose%sine < 0.0_wp), dim=1)
+    call find_zero(bridge)
+  end subroutine find_bridge
+
+  !> As far towards a coordinate beyond the change point as equations are independent.
+  pure subroutine approach(linkage, station, towards, unit, usual, last)
+    type(linkage_t), intent(in) :: linkage
+    type(station_t), intent(in) :: station
+    real(wp), intent(in) :: towards
+    real(wp), intent(in) :: unit
+    real(wp), intent(in) :: usual(:)
+    type(station_t), intent(out) :: last
+
+    type(station_t) :: next
+    real(wp) :: way
+    logical :: is_good
+    integer :: i
+
+    last = station
+    way = towards - station%crank
+    do i = 1, 20
+      way = 0.5_wp*way
+      call take_step(linkage, last, way, unit, next, is_good)
+      if (.not. is_good) cycle
+      if (.not. is_near_change(next%pose%sine, usual)) last = next
+    end do
+  end subroutine approach
+
+  !> A bridge through nodes at a spacing, with its error: that of the polynomial, from that through
+  !! fewer nodes, and by how much equations are not fulfilled.
+  pure subroutine build(linkage, last, next, spacing, unit, span, origin, bridge)
+    type(linkage_t), intent(in) :: linkage
+    type(station_t), intent(in) :: last, next
+    real(wp), intent(in) :: spacing !! with the sign of the way
+    real(wp), intent(in) :: unit
+    real(wp), intent(in) :: span
+    real(wp), intent(in) :: origin(2)
+    type(bridge_t), intent(out) :: bridge
+
+    integer, parameter :: probes = 5
+    type(pose_t) :: all_nodes, fewer
+    real(wp) :: at, error
+    logical :: is_good
+    integer :: i
+
+    bridge%error = huge(1.0_wp)
+    bridge%from = min(last%crank, next%crank)
+    bridge%to = max(last%crank, next%crank)
+    associate (pins => size(last%pose%pin, 2), bodies => size(last%pose%direction, 2), &
+        groups => size(last%pose%sine))
+      allocate (bridge%crank(2*nodes), bridge%pin(2, pins, 2*nodes), &
+        bridge%direction(2, bodies, 2*nodes), bridge%sine(groups, 2*nodes))
+    end associate
+    if (spacing > 0.0_wp) then
+      call place_nodes(linkage, last, -spacing, unit, nodes, -1, bridge, is_good)
+      if (is_good) call place_nodes(linkage, next, spacing, unit, nodes + 1, 1, bridge, is_good)
+    else
+      call place_nodes(linkage, next, spacing, unit, nodes, -1, bridge, is_good)
+      if (is_good) call place_nodes(linkage, last, -spacing, unit, nodes + 1, 1, bridge, is_good)
+    end if
+    if (.not. is_good) return
+    error = 0.0_wp
+    do i = 1, probes
+      at = bridge%from + (bridge%to - bridge%from)*i/(probes + 1)
+      call cross_bridge(linkage, bridge, at, all_nodes)
+      call cross_bridge(linkage, bridge, at, fewer, 2, 2*nodes - 1)
+      error = max(error, maxval(abs(all_nodes%pin - fewer%pin))/span, &
+        maxval(abs(all_nodes%direction - fewer%direction)), &
+        largest_gap(linkage, all_nodes, origin, at)/span)
+    end do
+    bridge%error = error
+  end subroutine build
+
+  !> Nodes on one side.
+  pure subroutine place_nodes(linkage, first, spacing, unit, number, order, bridge, is_good)
+    type(linkage_t), intent(in) :: linkage
+    type(station_t), intent(in) :: first !! the node nearest to the change point
+    real(wp), intent(in) :: spacing      !! away from it
+    real(wp), intent(in) :: unit
+    integer, intent(in) :: number        !! of the first node
+    integer, intent(in) :: order         !! −1: of lower ones, 1: of higher ones
+    type(bridge_t), intent(inout) :: bridge
+    logical, intent(out) :: is_good
+
+    type(station_t) :: station, next
+    integer :: i
+
+    station = first
+    is_good = .true.
+    do i = 0, nodes - 1
+      if (i > 0) then
+        call take_step(linkage, station, spacing, unit, next, is_good)
+        if (.not. is_good) return
+        station = next
+      end if
+      associate (k => number + order*i)
+        bridge%crank(k) = station%crank
+        bridge%pin(:, :, k) = station%pose%pin
+        bridge%direction(:, :, k) = station%pose%direction
+        bridge%sine(:, k) = station%pose%sine
+      end associate
+    end do
+  end subroutine place_nodes
+
+  !> The change point: where the determinant of the group is zero.
+  pure subroutine find_zero(bridge)
+    type(bridge_t), intent(inout) :: bridge
+
+    real(wp) :: ends(2), sine(2)
+
+    ! The determinant is nearly linear between the nodes next to it.
+    ends = bridge%crank(nodes:nodes + 1)
+    sine = bridge%sine(bridge%group, nodes:nodes + 1)
+    bridge%change = ends(1) - sine(1)*(ends(2) - ends(1))/(sine(2) - sine(1))
+  end subroutine find_zero
+
+  !> The largest gap between what joints hold together [m]; angles count with the length of a body.
+  pure function largest_gap(linkage, pose, origin, crank) result(gap)
+    type(linkage_t), intent(in) :: linkage !! with or without redundancies
+    type(pose_t), intent(in) :: pose
+    real(wp), intent(in) :: origin(2)      !! from which the pins of the pose are counted [m]
+    real(wp), intent(in) :: crank          !! coordinate of the first drive [deg] or [m]
+    real(wp) :: gap
+
+    integer, allocatable :: pins(:)
+    real(wp) :: way(2)
+    integer :: b, i
+
+    gap = 0.0_wp
+    do b = 1, size(linkage%bodies)
+      pins = pins_of_body(linkage%bodies(b))
+      do i = 2, size(pins)
+        way = pose%pin(:, pins(i)) - pose%pin(:, pins(1))
+        if (i == 2 .and. drive_of_length(linkage, b) > 0) then
+          gap = max(gap, abs(cross(pose%direction(:, b), way)))
+        else
+          gap = max(gap, maxval(abs(way - arm_to_pin(linkage, pose, b, pins(i)))))
+        end if
+      end do
+    end do
+    do i = 1, size(linkage%sliders)
+      gap = max(gap, abs(misfit_of(linkage, equation_t(demands_line, number=i), pose, origin, &
+        crank)))
+    end do
+    do i = 1, size(linkage%turns)
+      gap = max(gap, linkage%bodies(linkage%turns(i)%body)%length*abs(misfit_of(linkage, &
+        equation_t(demands_turn, number=i), pose, origin, crank)))
+    end do
+  end function largest_gap
+
+end module change_points
