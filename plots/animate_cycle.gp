@@ -1,4 +1,4 @@
-# A linkage that is no four-bar as it moves: a turn, or to and fro, with the paths of its pins and points.
+# A linkage that is no four-bar as it moves: a cycle, or to and fro, with the paths of its pins and points.
 #   gnuplot -c animate_cycle.gp TABLE OUT [FIGURE [REMARK]]
 # TABLE has the columns speed and crank; the positions are between its first and its last.
 
@@ -8,12 +8,12 @@ eval smaller(0.65)
 
 eval answer(table, "facts")
 call plots."driven.gp"
-call plots."shapes.gp" (turning ? 216 : 240) 0.018
+pictures = turning ? 72*int(lesser(4, larger(1, cycle/360))) : 60
+call plots."shapes.gp" (turning ? 3*pictures : 240) 0.018
 
-# Evenly over a turn, or slower towards both ends of the way.
-pictures = turning ? 72 : 60
+# Evenly over a cycle, or slower towards both ends of the way.
 pose_of(picture) = turning ? 1 + 3*(picture - 1) : 1 + int(120.5 - 120*cos(2*pi*(picture - 1)/pictures))
-caption(n) = drive_subject." at ".(turning ? sprintf("%d°", int(floor(pose_crank[n] + 0.5) + 3600)%360) \
+caption(n) = drive_subject." at ".(turning ? sprintf("%d°", int(floor(pose_crank[n] + 0.5) + 10*cycle)%int(cycle)) \
     : minus(sprintf("%.4g", pose_crank[n])).(is_angle ? "°" : " ".unit_crank))
 tail = 24
 tail_shown(picture) = turning || picture <= pictures/2

@@ -7,8 +7,8 @@ table = ARG1; out = ARG2; table_of_points = argument(3); figure = argument(4); r
 eval smaller(0.65)
 
 eval answer(table, "facts")
-low = low_crank
-high = high_crank
+low = exists("home_low") && home_low > low_crank ? home_low : low_crank
+high = exists("home_low") && home_high < high_crank ? home_high : high_crank
 call plots."linkage.gp" table_of_points
 set print angles
 print low

@@ -606,6 +606,11 @@ if [ -n "$over" ]; then
     settings="$settings; law_name = ${law:-\"\"}"
 fi
 
+# Where the linkage is, of several ranges; a cycle of more than a turn.
+its_range=$(sed -n -e 's/^range of the [a-z ]*: \([^ ]*\) to \([^ ]*\) .*/; home_low = \1; home_high = \2/p' \
+    -e 's/^cycle: \([^ ]*\) deg .*/; cycle = \1/p' run.log 2> /dev/null | tr -d '\n')
+settings="$settings$its_range"
+
 case $format in
     svg) terminal=svg ;;
     pdf) terminal=pdfcairo ;;

@@ -1,8 +1,10 @@
 # What the first drive of a linkage that is no four-bar moves, for its drawings. After style.gp and `eval answer(table, "facts")`:
 #   call "driven.gp"
-# Sets is_angle, at_drive(position), and turning, whether the positions go over whole turns.
+# Sets is_angle, at_drive(position), cycle, and turning, whether the positions go over it as a whole.
 
 is_angle = unit_crank eq "deg"
 at_drive(position) = drive_subject.sprintf(" at %s%s", minus(sprintf("%.4g", position)), is_angle ? "°" : " ".unit_crank)
 positions = words(answer(table, "distinct crank"))
-turning = is_angle && positions > 2 && (high_crank - low_crank)*positions/(positions - 1.0) >= 360 - 1e-6
+if (!exists("cycle")) cycle = 360
+goes_round = is_angle && positions > 2 && (high_crank - low_crank)*positions/(positions - 1.0) >= cycle - 1e-6
+turning = goes_round && !exists("home_low")

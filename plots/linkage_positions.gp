@@ -8,14 +8,17 @@ table = ARG1; out = ARG2; figure = argument(3); remark = argument(4)
 load plots."drawing.gp"
 eval answer(table, "facts")
 call plots."driven.gp"
-call plots."shapes.gp" 360 0.013
+samples = turning && cycle > 360 ? 360*int(lesser(8, cycle/360)) : 360
+call plots."shapes.gp" samples 0.013
 
 # In full: near 60 degrees, or after a third of the way. The others evenly.
-shown = 1 + (turning ? int(floor(60.5 - pose_low) + 720)%360 : 120)
-do for [k=1:360] { if (pose_found[shown] == 0) { shown = 1 + shown%361 } }
+shown = 1 + (turning ? int(floor((60.5 - pose_low)*samples/cycle) + 2*samples)%samples : samples/3)
+do for [k=1:samples] { if (pose_found[shown] == 0) { shown = 1 + shown%(samples + 1) } }
 others = turning ? 5 : 3
-first_of = (shown - 1)%60
-other(k) = turning ? 1 + first_of + 60*(first_of + 60*(k - 1) < shown - 1 ? k - 1 : k) : k == 1 ? 1 : k == 2 ? 241 : 361
+apart = samples/6
+first_of = (shown - 1)%apart
+other(k) = turning ? 1 + first_of + apart*(first_of + apart*(k - 1) < shown - 1 ? k - 1 : k) \
+    : k == 1 ? 1 : k == 2 ? 2*samples/3 + 1 : samples + 1
 room = 0.06*span
 x0 = x_min - room; x1 = x_max + room; y0 = y_min - room; y1 = y_max + room
 

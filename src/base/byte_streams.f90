@@ -63,7 +63,8 @@ contains
 
     call put_logicals(buffer, [allocated(error)])
     if (.not. allocated(error)) return
-    call put_integers(buffer, [error%kind, error%place%body])
+    call put_integers(buffer, [error%kind, error%place%body, error%place%other])
+    call put_reals(buffer, [error%missing])
     call put_string(buffer, error%text)
   end subroutine put_error
 
@@ -119,14 +120,16 @@ contains
     type(error_t), allocatable, intent(out) :: error !! without its place in a file
 
     character(len=:), allocatable :: text
-    integer :: numbers(2)
+    integer :: numbers(3)
+    real(wp) :: missing(1)
     logical :: is_there(1)
 
     call get_logicals(bytes, at, is_there)
     if (.not. is_there(1)) return
     call get_integers(bytes, at, numbers)
+    call get_reals(bytes, at, missing)
     call get_string(bytes, at, text)
-    call set_error(error, numbers(1), text, body=numbers(2))
+    call set_error(error, numbers(1), text, body=numbers(2), other=numbers(3), missing=missing(1))
   end subroutine get_error
 
 end module byte_streams

@@ -1,6 +1,7 @@
 !> An error is a value: allocated when something went wrong, and carried up to `main`, which alone
 !! prints and stops.
 module errors
+  use kinds, only: wp
   implicit none (type, external)
   private
 
@@ -22,6 +23,7 @@ module errors
     integer :: line = 0, column = 0 !! from 1; 0: the file, or the line, as a whole
     integer :: body = 0             !! number of the link it is about, to be named where names are
                                     !! known; 0: none
+    integer :: other = 0            !! number of a second link; 0: none
     integer :: pin = 0              !! number of the pin at which a block leaves this link; 0: none
   end type place_t
 
@@ -29,6 +31,8 @@ module errors
     integer :: kind = error_of_input      !! one of the error_of_… numbers
     type(place_t) :: place
     character(len=:), allocatable :: text !! without the place
+    real(wp) :: missing = 0.0_wp          !! length by which its links are too short, negative: too
+                                          !! long [m]; 0: none is said
   end type error_t
 
   !> An element of an array of tasks that may fail one by one: allocated if it has failed.
@@ -39,7 +43,7 @@ module errors
 contains
 
   !> Makes an error; it replaces an earlier one.
-  pure subroutine set_error(error, kind, text, file, line, column, body, pin)
+  pure subroutine set_error(error, kind, text, file, line, column, body, pin, other, missing)
     type(error_t), allocatable, intent(inout) :: error !! allocated on return
     integer, intent(in) :: kind                    !! one of the error_of_… numbers
     character(len=*), intent(in) :: text           !! without the place
@@ -47,6 +51,8 @@ contains
     integer, intent(in), optional :: line, column  !! from 1, in the file
     integer, intent(in), optional :: body          !! number of the link it is about
     integer, intent(in), optional :: pin           !! number of the pin of a block on this link
+    integer, intent(in), optional :: other         !! number of a second link
+    real(wp), intent(in), optional :: missing      !! length by which they are too short [m]
 
     if (allocated(error)) deallocate (error)
     allocate (error)
@@ -57,6 +63,8 @@ contains
     if (present(column)) error%place%column = column
     if (present(body)) error%place%body = body
     if (present(pin)) error%place%pin = pin
+    if (present(other)) error%place%other = other
+    if (present(missing)) error%missing = missing
   end subroutine set_error
 
   !> Makes outcomes those of tasks that have not failed.

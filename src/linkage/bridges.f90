@@ -18,10 +18,15 @@ contains
   pure function place_on_path(path, crank) result(place)
     type(path_t), intent(in) :: path !! with stations
     real(wp), intent(in) :: crank    !! [deg] or [m]
-    real(wp) :: place                !! at or behind the first station, if there is a period
+    real(wp) :: place                !! at or behind its beginning, if there is a period
+
+    real(wp) :: first
 
     place = crank
-    if (path%period > 0.0_wp) place = path%crank(1) + modulo(crank - path%crank(1), path%period)
+    if (.not. path%period > 0.0_wp) return
+    first = path%crank(1)
+    if (allocated(path%limits(1)%crank)) first = path%limits(1)%change
+    place = first + modulo(crank - first, path%period)
   end function place_on_path
 
   !> The bridge of a path at a coordinate; 0: there is none.
@@ -56,7 +61,11 @@ contains
     if (present(least)) first = least
     if (present(most)) last = most
     allocate (weight(last - first + 1, 0:2))
-    weight = node_weights(bridge%crank(first:last), crank)
+    if (bridge%by_sine) then
+      weight = weights_by_sine(bridge, first, last, crank)
+    else
+      weight = node_weights(bridge%crank(first:last), crank)
+    end if
     ! Derivatives are per radian.
     if (linkage%drives(1)%kind == drives_angle) then
       weight(:, 1) = weight(:, 1)/degree
@@ -86,6 +95,42 @@ contains
     end associate
     pose%sine = matmul(bridge%sine(:, first:last), weight(:, 0))
   end subroutine cross_bridge
+
+  !> Weights of the values at nodes in the value and the derivatives by the coordinate, of
+  !! polynomials in the determinant of a group: c(σ) is the coordinate, d/dc = (d/dσ)/c′, and
+  !! d²/dc² = (d²/dσ² − c″ d/dc)/c′². At the limit itself there are no derivatives: they are 0.
+  pure function weights_by_sine(bridge, first, last, crank) result(weight)
+    type(bridge_t), intent(in) :: bridge
+    integer, intent(in) :: first, last !! nodes
+    real(wp), intent(in) :: crank      !! between the last node and the limit [deg] or [m]
+    real(wp) :: weight(last - first + 1, 0:2)
+
+    real(wp) :: node(last - first + 1), c(0:2), sine, step
+    integer :: i
+
+    node = bridge%sine(bridge%group, first:last)
+    sine = 0.0_wp
+    if (abs(bridge%change - crank) > 0.0_wp) sine = node(size(node))*sqrt(min(1.0_wp, abs(( &
+      bridge%change - crank)/(bridge%change - bridge%crank(last)))))
+    do i = 1, 20
+      weight = node_weights(node, sine)
+      c = matmul(bridge%crank(first:last) - bridge%change, weight)
+      if (.not. abs(c(1)) > 0.0_wp .or. .not. abs(sine) > 0.0_wp) exit
+      step = (bridge%change + c(0) - crank)/c(1)
+      ! Between the limit and the last node, but for rounding.
+      step = sine - min(max((sine - step)/node(size(node)), 0.0_wp), 1.0_wp)*node(size(node))
+      sine = sine - step
+      if (abs(step) <= 2.0_wp*spacing(sine)) exit
+    end do
+    weight = node_weights(node, sine)
+    c = matmul(bridge%crank(first:last) - bridge%change, weight)
+    if (abs(sine) > 0.0_wp .and. abs(c(1)) > 0.0_wp) then
+      weight(:, 1) = weight(:, 1)/c(1)
+      weight(:, 2) = (weight(:, 2) - c(2)*weight(:, 1))/c(1)**2
+    else
+      weight(:, 1:) = 0.0_wp
+    end if
+  end function weights_by_sine
 
   !> Weights of the values at nodes in the value, the first and the second derivative at a place of
   !! the polynomial through them.

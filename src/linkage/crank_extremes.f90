@@ -1,7 +1,7 @@
 !> The least and the greatest value, over a range of the first drive, of quantities of a linkage.
 module crank_extremes
   use constants, only: degree
-  use crank_limits, only: crank_range_t, samples
+  use crank_limits, only: crank_range_t
   use errors, only: error_t
   use group_equations, only: line_axis, line_offset, world_line
   use kinds, only: wp
@@ -36,6 +36,13 @@ module crank_extremes
     integer :: reversals = 0    !! sign changes of its rate
   end type extremes_t
 
+  !> What is known of a quantity on the way through a range.
+  type :: walk_t
+    logical :: has_last = .false. !! of the values behind
+    real(wp) :: first = 0.0_wp, first_rate = 0.0_wp
+    real(wp) :: c = 0.0_wp, value = 0.0_wp, rate = 0.0_wp
+  end type walk_t
+
   integer, parameter :: most_halvings = 80
 
   !> What changes less than by rounding is constant: angles [deg], places as a share of the links.
@@ -43,79 +50,110 @@ module crank_extremes
 
 contains
 
-  !> Least and greatest values of a quantity over a range. Of a constant they are the same.
-  pure subroutine find_extremes(linkage, range, quantity, extremes)
-    type(linkage_t), intent(in) :: linkage        !! of any kind, with its path
-    type(crank_range_t), intent(in) :: range      !! one of `find_ranges`
-    type(quantity_t), intent(in) :: quantity      !! which
-    type(extremes_t), intent(out) :: extremes     !! over the range
+  !> Least and greatest values of quantities over a range. Of a constant they are the same.
+  pure subroutine find_extremes(linkage, range, quantities, extremes)
+    type(linkage_t), intent(in) :: linkage          !! of any kind, with its path
+    type(crank_range_t), intent(in) :: range        !! one of `find_ranges`
+    type(quantity_t), intent(in) :: quantities(:)   !! which
+    type(extremes_t), intent(out) :: extremes(:)    !! (quantities) over the range
 
-    real(wp) :: c, value, rate, last_c, last_value, last_rate, low, high, low_rate, &
-      first, first_rate, constant
-    logical :: is_fine, has_last
-    integer :: i, k
+    type(walk_t) :: walks(size(quantities))
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t) :: coefficients
+    real(wp) :: c, value, rate
+    logical :: is_fine
+    integer :: i, q
 
-    has_last = .false.
-    first = 0.0_wp
-    first_rate = 0.0_wp
-    last_c = 0.0_wp
-    last_value = 0.0_wp
-    last_rate = 0.0_wp
-    do i = 0, samples
-      c = range%from + (range%to - range%from)*i/samples
-      call evaluate(linkage, quantity, c, value, rate, is_fine)
-      if (.not. is_fine .and. .not. (i == 0 .or. i == samples)) cycle
-      if (.not. is_fine) call evaluate_end(linkage, quantity, range, c, value)
-      if (has_last) value = unwrapped(quantity, value, last_value)
-      if (.not. has_last) then
-        first = value
-        extremes%least = value
-        extremes%greatest = value
-        extremes%at_least = c
-        extremes%at_greatest = c
-      end if
-      call take(extremes, c, value)
-      if (has_last .and. is_fine .and. rate*last_rate < 0.0_wp) then
-        extremes%reversals = extremes%reversals + 1
-        low = last_c
-        high = c
-        low_rate = last_rate
-        do k = 1, most_halvings
-          c = 0.5_wp*(low + high)
-          if (abs(high - low) <= 2.0_wp*spacing(abs(c))) exit
-          call evaluate(linkage, quantity, c, value, rate, is_fine)
-          if (.not. is_fine) exit
-          if (rate*low_rate > 0.0_wp) then
-            low = c
-          else
-            high = c
-          end if
-        end do
-        value = unwrapped(quantity, value, last_value)
-        call take(extremes, c, value)
-        c = range%from + (range%to - range%from)*i/samples
-        call evaluate(linkage, quantity, c, value, rate, is_fine)
-        value = unwrapped(quantity, value, last_value)
-      end if
-      last_value = value
-      ! A rate of zero has no sign to compare with: the next one is compared with the last that has.
-      if (has_last .and. is_fine .and. abs(rate) <= 0.0_wp) cycle
-      has_last = .true.
-      last_c = c
-      last_rate = merge(rate, 0.0_wp, is_fine)
-      if (.not. abs(first_rate) > 0.0_wp) first_rate = last_rate
+    do i = 0, range%samples
+      c = range%from + (range%to - range%from)*i/range%samples
+      call place(linkage, c, pose, coefficients, is_fine)
+      if (.not. is_fine .and. .not. (i == 0 .or. i == range%samples)) cycle
+      do q = 1, size(quantities)
+        call measure(linkage, quantities(q), pose, coefficients, value, rate)
+        if (.not. is_fine) call evaluate_end(linkage, quantities(q), range, c, value)
+        call go_on(linkage, quantities(q), c, value, rate, is_fine, walks(q), extremes(q))
+      end do
     end do
+    do q = 1, size(quantities)
+      call finish(linkage, range, quantities(q), walks(q), extremes(q))
+    end do
+  end subroutine find_extremes
+
+  !> Takes the next sample of a quantity, and what is extreme between it and the last one.
+  pure subroutine go_on(linkage, quantity, c, value, rate, is_fine, walk, extremes)
+    type(linkage_t), intent(in) :: linkage
+    type(quantity_t), intent(in) :: quantity
+    real(wp), intent(in) :: c, value, rate
+    logical, intent(in) :: is_fine         !! there is a rate
+    type(walk_t), intent(inout) :: walk
+    type(extremes_t), intent(inout) :: extremes
+
+    real(wp) :: here, low, high, low_rate, middle, middle_value, middle_rate
+    logical :: is_middle_fine
+    integer :: k
+
+    here = value
+    if (walk%has_last) then
+      here = unwrapped(quantity, value, walk%value)
+    else
+      walk%first = value
+      extremes%least = value
+      extremes%greatest = value
+      extremes%at_least = c
+      extremes%at_greatest = c
+    end if
+    call take(extremes, c, here)
+    if (walk%has_last .and. is_fine .and. rate*walk%rate < 0.0_wp) then
+      extremes%reversals = extremes%reversals + 1
+      low = walk%c
+      high = c
+      low_rate = walk%rate
+      middle = c
+      middle_value = value
+      do k = 1, most_halvings
+        middle = 0.5_wp*(low + high)
+        if (abs(high - low) <= 2.0_wp*spacing(abs(middle))) exit
+        call evaluate(linkage, quantity, middle, middle_value, middle_rate, is_middle_fine)
+        if (.not. is_middle_fine) exit
+        if (middle_rate*low_rate > 0.0_wp) then
+          low = middle
+        else
+          high = middle
+        end if
+      end do
+      call take(extremes, middle, unwrapped(quantity, middle_value, walk%value))
+    end if
+    walk%value = here
+    ! A rate of zero has no sign to compare with: the next one is compared with the last that has.
+    if (walk%has_last .and. is_fine .and. abs(rate) <= 0.0_wp) return
+    walk%has_last = .true.
+    walk%c = c
+    walk%rate = merge(rate, 0.0_wp, is_fine)
+    if (.not. abs(walk%first_rate) > 0.0_wp) walk%first_rate = walk%rate
+  end subroutine go_on
+
+  !> What is known at the end of a range.
+  pure subroutine finish(linkage, range, quantity, walk, extremes)
+    type(linkage_t), intent(in) :: linkage
+    type(crank_range_t), intent(in) :: range
+    type(quantity_t), intent(in) :: quantity
+    type(walk_t), intent(in) :: walk
+    type(extremes_t), intent(inout) :: extremes
+
+    real(wp) :: constant
+
     ! It may turn back where a turn begins.
-    if (range%turns .and. first_rate*last_rate < 0.0_wp) extremes%reversals = extremes%reversals + 1
+    if (range%turns .and. walk%first_rate*walk%rate < 0.0_wp) extremes%reversals = &
+      extremes%reversals + 1
     if (range%turns .and. quantity%kind == angle_of_body) extremes%turned = &
-      360.0_wp*anint((last_value - first)/360.0_wp)
+      360.0_wp*anint((walk%value - walk%first)/360.0_wp)
     constant = constant_angle
     if (quantity%kind == place_of_slider) constant = constant_place*maxval(linkage%bodies%length)
     if (extremes%greatest - extremes%least > constant) return
     extremes%greatest = extremes%least
     extremes%at_greatest = extremes%at_least
     extremes%reversals = 0
-  end subroutine find_extremes
+  end subroutine finish
 
   !> A quantity at an end of a range, where there is no rate. Where the pins that carry a dyad come
   !! together there, its direction is rounding: the value is that to which those inside lead.
@@ -192,13 +230,27 @@ contains
 
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: coefficients
+
+    call place(linkage, c, pose, coefficients, is_fine)
+    call measure(linkage, quantity, pose, coefficients, value, rate)
+  end subroutine evaluate
+
+  !> A pose and its coefficients; without these near dead points, and without both out of reach.
+  pure subroutine place(linkage, c, pose, coefficients, is_fine)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: c
+    type(pose_t), intent(out) :: pose
+    type(kinematic_coefficients_t), intent(out) :: coefficients
+    logical, intent(out) :: is_fine !! neither of the two
+
     type(error_t), allocatable :: error
 
-    value = 0.0_wp
-    rate = 0.0_wp
     call place_links(linkage, c, pose, error)
     is_fine = .not. allocated(error)
-    if (.not. is_fine) return
+    if (.not. is_fine) then
+      deallocate (pose%pin)
+      return
+    end if
     is_fine = all(abs(pose%sine) > dead_point_sine) .or. allocated(pose%coefficients)
     if (is_fine) then
       coefficients = find_kinematic_coefficients(linkage, pose)
@@ -207,6 +259,19 @@ contains
       allocate (coefficients%turn(size(linkage%bodies)), &
         coefficients%pin(2, size(linkage%is_ground)), source=0.0_wp)
     end if
+  end subroutine place
+
+  !> A quantity and its rate, up to a positive factor, of a pose; 0 without one.
+  pure subroutine measure(linkage, quantity, pose, coefficients, value, rate)
+    type(linkage_t), intent(in) :: linkage
+    type(quantity_t), intent(in) :: quantity
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: coefficients
+    real(wp), intent(out) :: value, rate
+
+    value = 0.0_wp
+    rate = 0.0_wp
+    if (.not. allocated(pose%pin)) return
     select case (quantity%kind)
     case (angle_of_body)
       value = body_angle(linkage, pose, quantity%number)/degree
@@ -216,7 +281,7 @@ contains
     case default
       call evaluate_group(linkage, quantity, pose, coefficients, value, rate)
     end select
-  end subroutine evaluate
+  end subroutine measure
 
   !> The place of a slider along its line, which may turn, and its rate:
   !! `e·(p − q)` and `h n·(p − q) + e·(p' − q')`, n the normal of e.

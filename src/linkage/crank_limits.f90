@@ -10,7 +10,7 @@ module crank_limits
   implicit none (type, external)
   private
 
-  public :: crank_range_t, find_ranges, turns_fully, samples
+  public :: crank_range_t, find_ranges, in_turns_of, turns_fully
 
   !> An interval of the first drive in which the linkage closes on its branch.
   type :: crank_range_t
@@ -18,11 +18,17 @@ module crank_limits
     logical :: turns = .false.             !! a whole period, without limits
     integer :: blocked_by(2) = 0           !! groups that end it; 0: none
     integer :: left_at(2) = 0              !! pins of blocks that there leave their links; 0: none
+    logical :: is_open(2) = .false.        !! no end has been found: the range goes on
+    integer :: samples = 720               !! extremes between them are found to rounding where the
+                                           !! rate changes its sign once
   end type crank_range_t
 
-  !> Samples of a range; extremes between them are found to rounding where the rate changes its sign
-  !! once.
+  !> Samples of a turn, or of the length of the longest link.
   integer, parameter :: samples = 720
+
+  !> An end is looked for in steps of samples so far: turns of a linkage without a period, lengths of
+  !! the longest link. From there on steps of a length double.
+  integer, parameter :: turns_searched = 50, lengths_searched = 20, most_doublings = 16
 
   integer, parameter :: most_halvings = 80
 
@@ -41,9 +47,10 @@ contains
 
     type(crank_range_t) :: range
     real(wp) :: step, c, period, first
-    logical :: closes(0:samples), is_angle
+    logical, allocatable :: closes(:)
+    logical :: is_angle
     integer, allocatable :: order(:)
-    integer :: i, k
+    integer :: i, k, n
 
     allocate (ranges(0))
     period = period_of(linkage)
@@ -62,38 +69,72 @@ contains
           if (c <= ranges(size(ranges))%to + 1.0e-6_wp*step) cycle
         end if
         if (.not. is_closed(linkage, c)) cycle
-        call find_end(linkage, c, -step, range%blocked_by(1), range%left_at(1), range%from)
-        call find_end(linkage, c, step, range%blocked_by(2), range%left_at(2), range%to)
+        call find_end(linkage, c, -step, is_angle, minval(inside), range, 1)
+        call find_end(linkage, c, step, is_angle, maxval(inside), range, 2)
+        call set_samples(range, is_angle)
         ranges = [ranges, range]
       end do
       return
     end if
-    do i = 0, samples
-      closes(i) = is_closed(linkage, period*i/samples)
+    n = samples*nint(period/360.0_wp)
+    allocate (closes(0:n))
+    do i = 0, n
+      closes(i) = is_closed(linkage, period*i/n)
     end do
     if (all(closes)) then
       range%to = period
       range%turns = .true.
+      call set_samples(range, is_angle)
       ranges = [range]
       return
     end if
     ! From a gap on, round the period.
-    k = findloc(closes(:samples - 1), .false., dim=1) - 1
-    step = period/samples
-    first = period*k/samples
+    k = findloc(closes(:n - 1), .false., dim=1) - 1
+    step = period/n
+    first = period*k/n
     i = 1
-    do while (i <= samples)
+    do while (i <= n)
       c = first + step*i
-      if (.not. closes(modulo(k + i, samples))) then
+      if (.not. closes(modulo(k + i, n))) then
         i = i + 1
         cycle
       end if
-      call find_end(linkage, c, -step, range%blocked_by(1), range%left_at(1), range%from)
-      call find_end(linkage, c, step, range%blocked_by(2), range%left_at(2), range%to)
+      call find_end(linkage, c, -step, is_angle, c, range, 1)
+      call find_end(linkage, c, step, is_angle, c, range, 2)
+      call set_samples(range, is_angle)
       ranges = [ranges, range]
       i = max(i + 1, 1 + floor((range%to - first)/step))
     end do
   end subroutine find_ranges
+
+  !> The ends of a range in those turns that some positions have: where most of it is between them;
+  !! then nearest to 0.
+  pure function in_turns_of(range, period, positions) result(ends)
+    type(crank_range_t), intent(in) :: range !! one of `find_ranges`
+    real(wp), intent(in) :: period           !! of the linkage [deg]; 0: none
+    real(wp), intent(in) :: positions(:)     !! of the first drive [deg]; none: about 0
+    real(wp) :: ends(2)                      !! [deg] or [m]
+
+    real(wp), parameter :: rounding = 1.0e-6_wp
+    real(wp) :: hull(2), tried(2), common, most
+    integer :: i, nearest
+
+    ends = [range%from, range%to]
+    if (period <= 0.0_wp .or. range%turns) return
+    hull = 0.0_wp
+    if (size(positions) > 0) hull = [minval(positions), maxval(positions)]
+    most = -huge(1.0_wp)
+    ! Turns that touch the positions; of many of these those nearest to 0 serve as well as any.
+    nearest = nint((min(max(0.0_wp, hull(1)), hull(2)) - 0.5_wp*(range%from + range%to))/period)
+    do i = nearest - 2, nearest + 2
+      tried = [range%from, range%to] + i*period
+      common = min(tried(2), hull(2)) - max(tried(1), hull(1))
+      if (common < most - rounding) cycle
+      if (common < most + rounding .and. abs(sum(tried)) > abs(sum(ends)) - rounding) cycle
+      most = max(most, common)
+      ends = tried
+    end do
+  end function in_turns_of
 
   !> Whether the first drive turns a link fully and all positions repeat after a turn, without a
   !! dead point on the way.
@@ -140,36 +181,48 @@ contains
     if (is) is = all(abs(pose%sine) > 0.0_wp) .or. allocated(pose%coefficients)
   end function is_inside
 
-  !> The last coordinate, in steps from one at which the linkage closes, at which it still does, by
-  !! bisection; the group that is nearest to its dead point there, and the block that leaves its
-  !! link.
-  pure subroutine find_end(linkage, inside, step, group, pin, last)
+  !> Samples of a range with its ends.
+  pure subroutine set_samples(range, is_angle)
+    type(crank_range_t), intent(inout) :: range
+    logical, intent(in) :: is_angle
+
+    range%samples = samples
+    if (is_angle) then
+      range%samples = samples*max(1, nint((range%to - range%from)/360.0_wp))
+    else if (any(range%is_open)) then
+      range%samples = samples*lengths_searched
+    end if
+  end subroutine set_samples
+
+  !> Sets an end of a range: the last coordinate, in steps from one at which the linkage closes, at
+  !! which it still does, by bisection; the group that is nearest to its dead point there, and the
+  !! block that leaves its link.
+  pure subroutine find_end(linkage, inside, step, is_angle, farthest, range, end)
     type(linkage_t), intent(in) :: linkage
     real(wp), intent(in) :: inside
-    real(wp), intent(in) :: step !! with its sign
-    integer, intent(out) :: group
-    integer, intent(out) :: pin !! of the block; 0: none
-    real(wp), intent(out) :: last
+    real(wp), intent(in) :: step      !! with its sign
+    logical, intent(in) :: is_angle
+    real(wp), intent(in) :: farthest  !! an open range goes as far as here, at least
+    type(crank_range_t), intent(inout) :: range
+    integer, intent(in) :: end        !! 1: from, 2: to
 
     type(pose_t) :: pose
     type(error_t), allocatable :: error
-    real(wp) :: beyond, middle, jump
-    integer :: i, number
+    real(wp) :: last, beyond, middle
+    integer :: i, jump
 
-    last = inside
-    group = 0
-    pin = 0
-    do i = 1, 20*samples
-      beyond = last + step
-      call find_jump(linkage, last, beyond, number, jump)
-      if (number > 0) then
-        last = jump
-        group = linkage%path%bridges(number)%group
-        return
-      end if
-      if (.not. is_closed(linkage, beyond)) exit
-      last = beyond
-    end do
+    range%blocked_by(end) = 0
+    range%left_at(end) = 0
+    call search_end(linkage, inside, step, is_angle, last, beyond, jump, range%is_open(end))
+    if (range%is_open(end)) last = sign(1.0_wp, step)*max(sign(1.0_wp, step)*last, &
+      sign(1.0_wp, step)*farthest)
+    if (end == 1) range%from = last
+    if (end == 2) range%to = last
+    if (range%is_open(end)) return
+    if (jump > 0) then
+      range%blocked_by(end) = linkage%path%bridges(jump)%group
+      return
+    end if
     do i = 1, most_halvings
       middle = 0.5_wp*(last + beyond)
       if (abs(beyond - last) <= 2.0_wp*spacing(max(abs(last), abs(step)))) exit
@@ -179,13 +232,50 @@ contains
         beyond = middle
       end if
     end do
+    if (end == 1) range%from = last
+    if (end == 2) range%to = last
     call place_links(linkage, beyond, pose, error)
-    if (allocated(error)) pin = error%place%pin
+    if (allocated(error)) range%left_at(end) = error%place%pin
     call place_links(linkage, last, pose, error)
-    if (.not. allocated(error)) then
-      if (size(pose%sine) > 0) group = minloc(abs(pose%sine), dim=1)
-    end if
+    if (allocated(error)) return
+    if (size(pose%sine) > 0) range%blocked_by(end) = minloc(abs(pose%sine), dim=1)
   end subroutine find_end
+
+  !> Goes on in steps while the linkage closes.
+  pure subroutine search_end(linkage, inside, step, is_angle, last, beyond, jump, is_open)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: inside
+    real(wp), intent(in) :: step        !! with its sign
+    logical, intent(in) :: is_angle
+    real(wp), intent(out) :: last       !! at which it still does; where steps of samples end if no
+                                        !! end is found
+    real(wp), intent(out) :: beyond     !! at which it does no more
+    integer, intent(out) :: jump        !! bridge over which it would jump, at `last`; 0: none
+    logical, intent(out) :: is_open     !! no end has been found
+
+    real(wp) :: place
+    integer :: i
+
+    is_open = .false.
+    last = inside
+    do i = 1, samples*merge(turns_searched, lengths_searched, is_angle)
+      beyond = last + step
+      call find_jump(linkage, last, beyond, jump, place)
+      if (jump > 0) then
+        last = place
+        return
+      end if
+      if (.not. is_closed(linkage, beyond)) return
+      last = beyond
+    end do
+    do i = 1, merge(0, most_doublings, is_angle)
+      beyond = inside + 2.0_wp**i*(last - inside)
+      if (is_closed(linkage, beyond)) cycle
+      last = inside + 2.0_wp**(i - 1)*(last - inside)
+      return
+    end do
+    is_open = .true.
+  end subroutine search_end
 
   !> A place between two coordinates at which dyads on their sides would jump.
   pure subroutine find_jump(linkage, from, to, number, place)

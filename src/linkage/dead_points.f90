@@ -1,7 +1,7 @@
 !> Where in a range of the first drive a group comes nearest to a dead point.
 module dead_points
   use bridges, only: bridge_at, place_on_path
-  use crank_limits, only: crank_range_t, samples
+  use crank_limits, only: crank_range_t
   use errors, only: error_t
   use kinds, only: wp
   use linkage_paths, only: has_change_points
@@ -36,11 +36,12 @@ contains
     real(wp), parameter :: low = 0.1_wp
     !> The beginning of a turn is not its end.
     real(wp), parameter :: rounding = 1.0e-9_wp
-    real(wp) :: sine(size(linkage%groups), -1:samples + 1)
+    real(wp), allocatable :: sine(:, :)
     type(low_point_t) :: point, least
-    integer :: g, i
+    integer :: samples, g, i
 
-    allocate (points(0))
+    samples = range%samples
+    allocate (points(0), sine(size(linkage%groups), -1:samples + 1))
     call take_change_points(linkage, range, points)
     do i = 0, samples
       sine(:, i) = sines_at(linkage, crank_at(range, real(i, wp)))
@@ -76,7 +77,7 @@ contains
       real(wp) :: value
 
       value = sine(g, number + 1)
-      if (range%turns .and. number == samples - 1) value = sine(g, 0)
+      if (range%turns .and. number == range%samples - 1) value = sine(g, 0)
     end function next_of
 
   end subroutine find_low_points
@@ -116,7 +117,7 @@ contains
     real(wp), intent(in) :: number
     real(wp) :: crank
 
-    crank = range%from + (range%to - range%from)*number/samples
+    crank = range%from + (range%to - range%from)*number/range%samples
   end function crank_at
 
   !> |σ| of all groups; 0 where the links cannot be placed.

@@ -40,7 +40,13 @@ contains
     four_areas_squared = (r(1) + r(2) + distance)*(r(1) + r(2) - distance)*(distance + r(1) - &
       r(2))*(distance - r(1) + r(2))
     if (four_areas_squared < -limit_slack*maxval([r, distance])**4) then
-      call set_error(error, error_of_reach, "the position is out of reach")
+      if (distance > sum(r)) then
+        call set_error(error, error_of_reach, "the position is out of reach", body=dyad%body(1), &
+          other=dyad%body(2), missing=distance - sum(r))
+      else
+        call set_error(error, error_of_reach, "the position is out of reach", &
+          body=dyad%body(maxloc(r, dim=1)), missing=-(abs(r(1) - r(2)) - distance))
+      end if
       return
     end if
     ! With both bases at one place, a dead point, the direction of the dyad is undetermined.

@@ -14,7 +14,7 @@ module group_determinants
 
 contains
 
-  !> The determinants of all groups, in [−1, 1].
+  !> The determinants of all groups.
   pure function determinants_of(linkage, pose) result(determinants)
     type(linkage_t), intent(in) :: linkage !! with its plan
     type(pose_t), intent(in) :: pose       !! pins and directions
@@ -29,8 +29,8 @@ contains
 
   !> The determinant of a group: of two bodies, of a body and a line, and of two lines the sine or
   !! cosine of the angle at which their loci meet; of groups by iterations the smallest singular
-  !! value of their equations, rows of length one, with the sign of their determinant;
-  !! 1 of what has no dead point.
+  !! value of their equations, rows of length one, with the sign of their determinant, as a share
+  !! of its usual size; 1 of what has no dead point.
   pure function determinant_of(linkage, pose, number) result(determinant)
     type(linkage_t), intent(in) :: linkage !! with its plan
     type(pose_t), intent(in) :: pose       !! pins and directions
@@ -60,7 +60,7 @@ contains
       case (groups_by_newton)
         allocate (scales(size(group%bodies)))
         call factorize_group(linkage, group, pose, factor, scales)
-        determinant = least_singular_value(factor)
+        determinant = least_singular_value(factor)/group%usual
       end select
     end associate
   end function determinant_of

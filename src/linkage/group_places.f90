@@ -183,7 +183,8 @@ contains
     h = cross(axis, way)
     squared = (r - h)*(r + h)
     if (squared < -limit_slack*max(r, abs(h))**2) then
-      call set_error(error, error_of_reach, "the position is out of reach", body=group%body(1))
+      call set_error(error, error_of_reach, "the position is out of reach", body=group%body(1), &
+        missing=abs(h) - r)
       return
     end if
     along = side*sqrt(max(squared, 0.0_wp))
@@ -262,7 +263,7 @@ contains
     real(wp), intent(in) :: origin(2)         !! from which the pins of the pose are counted [m]
     real(wp), intent(in) :: crank             !! coordinate of the first drive [deg] or [m]
     type(pose_t), intent(inout) :: pose       !! near the solution; the solution
-    real(wp), intent(out) :: sine             !! smallest singular value at the last iteration
+    real(wp), intent(out) :: sine             !! as in `pose_t`, at the last iteration
     real(wp), intent(out) :: largest          !! correction of all iterations [m]
     integer, intent(out) :: iterations        !! how many
     type(error_t), allocatable, intent(inout) :: error !! why it does not converge
@@ -300,10 +301,12 @@ contains
       largest = maxval(abs(total))
       size_of_step = maxval(abs(step))
       if (.not. size_of_step <= 1.0e6_wp*reach) exit
-      ! Rounding remains: corrections that are tiny, and no smaller than half the last ones.
+      ! Rounding remains: corrections, or misfits near dead points, that are tiny, and corrections no
+      ! smaller than half the last ones.
       if (size_of_step <= 4.0_wp*epsilon(1.0_wp)*reach .or. (size_of_step >= 0.5_wp*last .and. &
-        size_of_step <= 1.0e-12_wp*reach)) then
-        sine = least_singular_value(factor)
+        (size_of_step <= 1.0e-12_wp*reach .or. &
+        maxval(abs(misfit)) <= 16.0_wp*epsilon(1.0_wp)*reach))) then
+        sine = least_singular_value(factor)/group%usual
         return
       end if
       last = size_of_step

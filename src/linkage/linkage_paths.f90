@@ -12,13 +12,14 @@ module linkage_paths
   use kinds, only: wp
   use linkages, only: bridge_t, changes_branch, changes_stop, changes_through, drives_angle, &
     group_t, groups_by_newton, is_dyad_linkage, linkage_t, path_t, reference_point
+  use path_limits, only: approach_t, watch
   use path_steps, only: new_station, station_t, take_step
   use pose_types, only: drawn_pose, pose_t
   use poses, only: dead_point_sine, place_groups, place_links
   implicit none (type, external)
   private
 
-  public :: follow_path, leave_path, has_change_points, period_of, has_iterations, most_turns
+  public :: follow_path, leave_path, has_change_points, period_of, has_iterations
 
   !> Largest step between stations: of an angle [deg]; of a length as a share of the linkage.
   real(wp), parameter :: angle_step = 2.0_wp, length_step = 0.005_wp
@@ -26,8 +27,9 @@ module linkage_paths
   !> Steps are halved this often, at most: then the path ends.
   integer, parameter :: most_halvings = 40
 
-  !> Turns after which a linkage that has not repeated its positions is taken to have no period.
-  integer, parameter :: most_turns = 8
+  !> Turns after which a linkage that has not repeated its positions is taken to have no period:
+  !! where drives alone tell, and where it is followed.
+  integer, parameter :: most_turns = 1000, most_turns_followed = 8
 
   !> A pose repeats an earlier one if all pins are this near, as a share of the linkage.
   real(wp), parameter :: same_pose = 1.0e-9_wp
@@ -64,25 +66,34 @@ contains
 
     period = 0.0_wp
     if (linkage%drives(1)%kind /= drives_angle) return
-    if (allocated(linkage%path%crank)) then
-      period = linkage%path%period
-      return
-    end if
+    period = period_of_drives(linkage)
+    if (allocated(linkage%path%crank)) period = linkage%path%period
+  end function period_of
+
+  !> The interval of the first drive, an angle, after which all drives repeat [deg]; 0: there is none.
+  pure function period_of_drives(linkage) result(period)
+    type(linkage_t), intent(in) :: linkage !! its drives
+    real(wp) :: period
+
+    !> A ratio is that of whole numbers but for rounding.
+    real(wp), parameter :: rounding = 4.0_wp*epsilon(1.0_wp)
+    integer :: turns, i
+    logical :: repeats
+
     do turns = 1, most_turns
       repeats = .true.
       do i = 2, size(linkage%drives)
-        associate (drive => linkage%drives(i))
+        associate (drive => linkage%drives(i), others => turns*linkage%drives(i)%ratio)
           if (abs(drive%ratio) <= 0.0_wp) cycle
-          repeats = repeats .and. drive%kind == drives_angle .and. &
-            abs(turns*drive%ratio - anint(turns*drive%ratio)) <= 0.0_wp
+          repeats = repeats .and. drive%kind == drives_angle .and. abs(others - anint(others)) <= &
+            rounding*abs(others)
         end associate
       end do
-      if (repeats) then
-        period = 360.0_wp*turns
-        return
-      end if
+      period = 360.0_wp*turns
+      if (repeats) return
     end do
-  end function period_of
+    period = 0.0_wp
+  end function period_of_drives
 
   !> Finds the path of a linkage with change points, or with groups that only iterations place.
   !!
@@ -99,6 +110,7 @@ contains
     type(error_t), allocatable, intent(inout) :: error !! why there is no path
 
     type(station_t) :: first
+    type(path_t) :: path
     real(wp) :: usual(size(linkage%groups)), span
 
     if (allocated(linkage%path%crank)) deallocate (linkage%path%crank)
@@ -106,7 +118,7 @@ contains
     if (has_iterations(linkage)) then
       call begin_at_drawing(linkage, starts(1), first, span, nearest, error)
       if (allocated(error)) return
-      call follow(linkage, first, span, usual, changes == changes_through, linkage%path)
+      call follow_by_iterations(linkage, first, span, changes == changes_through)
       if (size(linkage%path%crank) == 1) call set_error(error, error_of_dead_point, &
         "dead point: the linkage cannot be followed from the drawing")
       return
@@ -114,20 +126,21 @@ contains
     if (.not. may_change(linkage)) return
     call begin_at_place(linkage, starts, first, span, usual)
     if (span <= 0.0_wp) return
-    call follow(linkage, first, span, usual, .true., linkage%path)
-    if (changes == changes_branch) call find_jumps(linkage, linkage%path%bridges)
-    if (size(linkage%path%bridges) == 0 .or. changes == changes_branch) then
+    call follow(linkage, first, span, usual, .true., path)
+    if (changes == changes_branch) call find_jumps(linkage, path%bridges)
+    if (size(path%bridges) == 0 .or. changes == changes_branch) then
       ! Dyads need no path where their sides are the same everywhere.
-      deallocate (linkage%path%crank)
+      deallocate (path%crank)
     else if (changes == changes_stop) then
-      call follow(linkage, first, span, usual, .false., linkage%path)
-      linkage%path%stops = .true.
+      call follow(linkage, first, span, usual, .false., path)
+      path%stops = .true.
     end if
+    linkage%path = path
   end subroutine follow_path
 
   !> The place of iterations nearest to the drawing.
   pure subroutine begin_at_drawing(linkage, start, first, span, nearest, error)
-    type(linkage_t), intent(in) :: linkage
+    type(linkage_t), intent(inout) :: linkage !! usual sizes of groups by iterations are set
     real(wp), intent(in) :: start
     type(station_t), intent(out) :: first
     real(wp), intent(out) :: span !! of the linkage [m]
@@ -154,8 +167,47 @@ contains
       call set_error(error, error_of_input, "the linkage does not assemble near the drawing")
       return
     end if
+    call take_usual(linkage, abs(pose%sine), pose)
     first = new_station(linkage, start, pose)
   end subroutine begin_at_drawing
+
+  !> Sizes of groups by iterations are measured by larger ones from now on.
+  pure subroutine take_usual(linkage, sine, pose)
+    type(linkage_t), intent(inout) :: linkage
+    real(wp), intent(in) :: sine(:)    !! (groups) that are usual, by the old measure
+    type(pose_t), intent(inout) :: pose
+
+    !> Smaller ones are nothing but rounding: a dead point.
+    real(wp), parameter :: least = 1.0e-9_wp
+    integer :: i
+
+    do i = 1, size(sine)
+      if (linkage%groups(i)%kind /= groups_by_newton .or. sine(i) < least) cycle
+      linkage%groups(i)%usual = linkage%groups(i)%usual*sine(i)
+      pose%sine(i) = pose%sine(i)/sine(i)
+    end do
+  end subroutine take_usual
+
+  !> The way of a linkage with groups that iterations place. Drawn near a dead point it is followed
+  !! once more, for what is small has been unknown.
+  pure subroutine follow_by_iterations(linkage, first, span, through)
+    type(linkage_t), intent(inout) :: linkage
+    type(station_t), intent(inout) :: first
+    real(wp), intent(in) :: span
+    logical, intent(in) :: through
+
+    type(path_t) :: path
+    real(wp) :: usual(size(linkage%groups))
+
+    usual = 0.0_wp
+    call follow(linkage, first, span, usual, through, path)
+    if (any(usual > 2.0_wp)) then
+      call take_usual(linkage, max(usual, 1.0_wp), first%pose)
+      usual = 0.0_wp
+      call follow(linkage, first, span, usual, through, path)
+    end if
+    linkage%path = path
+  end subroutine follow_by_iterations
 
   !> Whether dyads may have a change point: on the sides that they have, some determinant comes near
   !! to zero in a period of the first drive. Of a drive without a period that is not known.
@@ -294,7 +346,7 @@ contains
     type(linkage_t), intent(in) :: linkage
     type(station_t), intent(in) :: first
     real(wp), intent(in) :: span
-    real(wp), intent(in) :: usual(:)
+    real(wp), intent(inout) :: usual(:) !! (groups) largest determinants, as far as known
     logical, intent(in) :: through !! change points
     type(path_t), intent(out) :: path
 
@@ -323,18 +375,19 @@ contains
   end function linkage_span
 
   !> Follows the linkage in one sense until it repeats its pose, ends, or has made enough turns.
-  pure subroutine march(linkage, first, sense, span, first_usual, through, path)
+  pure subroutine march(linkage, first, sense, span, usual, through, path)
     type(linkage_t), intent(in) :: linkage
     type(station_t), intent(in) :: first
-    real(wp), intent(in) :: sense          !! +1: up; −1: down
-    real(wp), intent(in) :: span           !! of the linkage [m]
-    real(wp), intent(in) :: first_usual(:) !! (groups) sizes of determinants, as far as known
-    logical, intent(in) :: through         !! change points
+    real(wp), intent(in) :: sense       !! +1: up; −1: down
+    real(wp), intent(in) :: span        !! of the linkage [m]
+    real(wp), intent(inout) :: usual(:) !! (groups) largest determinants, as far as known
+    logical, intent(in) :: through      !! change points
     type(path_t), intent(out) :: path
 
     type(station_t) :: here, next, last
     type(bridge_t) :: bridge
-    real(wp) :: usual(size(first_usual)), step, most_step, goal, unit
+    type(approach_t) :: approach
+    real(wp) :: step, most_step, goal, unit
     integer :: halvings, stations, turns
     logical :: is_angle, is_close, is_good, found
 
@@ -343,7 +396,7 @@ contains
     if (is_angle) most_step = angle_step
     unit = 1.0_wp
     if (is_angle) unit = degree
-    usual = max(first_usual, abs(first%pose%sine))
+    usual = max(usual, abs(first%pose%sine))
     here = first
     stations = 0
     allocate (path%bridges(0))
@@ -387,6 +440,8 @@ contains
       usual = max(usual, abs(here%pose%sine))
       if (is_close) is_close = is_near_change(here%pose%sine, usual)
       halvings = max(0, halvings - 1)
+      call watch(linkage, here, span, approach)
+      if (approach%is_over) exit
       if (is_angle) then
         if (abs(here%crank - goal) > 0.0_wp) cycle
         if (repeats(here%pose, first%pose, span)) then
@@ -394,13 +449,14 @@ contains
           path%period = turns*360.0_wp
           exit
         end if
-        if (turns >= most_turns) exit
+        if (turns >= most_turns_followed) exit
         turns = turns + 1
         goal = first%crank + sense*turns*360.0_wp
       else
         if (abs(here%crank - first%crank) > 10.0_wp*span) exit
       end if
     end do
+    if (approach%is_found) path%limits(merge(2, 1, sense > 0.0_wp)) = approach%limit
     call trim_path(path, stations)
   end subroutine march
 
@@ -444,6 +500,7 @@ contains
     type(path_t) :: larger
 
     larger%period = path%period
+    larger%limits = path%limits
     larger%bridges = path%bridges
     associate (pins => size(pose%pin, 2), bodies => size(pose%direction, 2))
       allocate (larger%crank(room), larger%pin(2, pins, room), larger%direction(2, bodies, room), &
@@ -483,6 +540,8 @@ contains
 
     n = size(down%crank)
     path%crank = [down%crank(n:2:-1), up%crank]
+    path%limits(1) = down%limits(1)
+    path%limits(2) = up%limits(2)
     path%bridges = [(down%bridges(i), i=size(down%bridges), 1, -1), (up%bridges(i), i=1, &
       size(up%bridges))]
     associate (stations => size(path%crank), pins => size(up%pin, 2), &

@@ -161,6 +161,8 @@ module linkages
     real(wp) :: side = 1.0_wp      !! +1: the middle lies to the left of base 1 → base 2, −1: to its
                                    !! right; on a line: beyond the foot of the perpendicular, before
     integer :: slider(2) = 0       !! whose lines place it
+    real(wp) :: usual = 1.0_wp     !! of one by iterations: smallest singular value of its equations
+                                   !! of an ordinary size
     integer, allocatable :: pins(:)    !! that it places
     integer, allocatable :: bodies(:)  !! that it turns
     integer, allocatable :: loaded(:)  !! bodies whose loads it bears
@@ -169,15 +171,18 @@ module linkages
   end type group_t
 
   !> A piece of the path about a change point, where equations depend on each other and two smooth
-  !! ways cross: what lies between is the polynomial through nodes on both sides.
+  !! ways cross: what lies between is the polynomial through nodes on both sides. Or the last piece
+  !! before a limit.
   type :: bridge_t
     real(wp) :: from = 0.0_wp, to = 0.0_wp       !! where it holds [deg] or [m]
     real(wp) :: change = 0.0_wp                  !! the change point [deg] or [m]
     real(wp) :: error = 0.0_wp                   !! estimated, of places per size of the linkage
     integer :: group = 0                         !! whose determinant is 0 there
+    logical :: by_sine = .false.                 !! to a limit: the polynomial is one in this
+                                                 !! determinant; else in the coordinate
     logical :: is_jump = .false.                 !! on the sides of groups it is no corner but a jump:
                                                  !! the pins that carry a dyad meet
-    real(wp), allocatable :: crank(:)            !! (nodes) ascending [deg] or [m]
+    real(wp), allocatable :: crank(:)            !! (nodes) ascending, or towards a limit [deg] or [m]
     real(wp), allocatable :: pin(:, :, :)        !! (2, pins, nodes) from `reference_point` [m]
     real(wp), allocatable :: direction(:, :, :)  !! (2, bodies, nodes)
     real(wp), allocatable :: sine(:, :)          !! (groups, nodes) as in `pose_t`
@@ -196,6 +201,8 @@ module linkages
                                                  !! that are known, without stations too
     real(wp) :: period = 0.0_wp                  !! after which it repeats [deg]; 0: it does not
     logical :: stops = .false.                   !! nothing closes beyond its ends
+    type(bridge_t) :: limits(2)                  !! below the first and above the last station, as
+                                                 !! far as the limit of a group; without nodes: none
   end type path_t
 
   !> A balance shaft, geared to the first drive: with the coordinate c of this one its mass is in

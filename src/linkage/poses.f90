@@ -126,7 +126,7 @@ contains
 
     real(wp) :: at, correction, allowed
     real(wp), allocatable :: side(:)
-    integer :: bridge
+    integer :: bridge, k
 
     if (.not. allocated(linkage%path%crank)) then
       call place_groups(linkage, crank, pose, correction, error)
@@ -140,10 +140,25 @@ contains
         pose%crank = crank
         return
       end if
+      do k = 1, 2
+        if (.not. allocated(path%limits(k)%crank)) cycle
+        associate (limit => path%limits(k))
+          if (at < limit%from - slack(path) .or. at > limit%to + slack(path)) cycle
+          call cross_bridge(linkage, limit, min(max(at, limit%from), limit%to), pose)
+          if (at < limit%from .or. at > limit%to) pose%sine(limit%group) = 0.0_wp
+        end associate
+        pose%crank = crank
+        if (any(abs(pose%sine) < dead_point_sine)) deallocate (pose%coefficients)
+        return
+      end do
       call start_on_path(path, at, pose, side, allowed, error)
     end associate
     if (allocated(error)) then
-      if (linkage%path%stops .or. any(linkage%groups%kind == groups_by_newton)) return
+      if (linkage%path%stops .or. any(linkage%groups%kind == groups_by_newton)) then
+        k = linkage%path%limits(merge(1, 2, at < linkage%path%crank(1)))%group
+        if (k > 0) error%place%body = a_body_of(linkage%groups(k))
+        return
+      end if
       ! Another range: dyads close there without a way from the drawing.
       deallocate (error)
       call place_groups(linkage, crank, pose, correction, error)

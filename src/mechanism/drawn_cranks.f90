@@ -3,7 +3,7 @@ module drawn_cranks
   use constants, only: degree
   use group_equations, only: misfit_of
   use kinds, only: wp
-  use linkage_paths, only: most_turns, period_of
+  use linkage_paths, only: period_of
   use linkages, only: demands_drive, drives_angle, equation_t, linkage_t
   use models, only: model_t, report_number
   use pose_types, only: drawn_pose, pose_t
@@ -41,11 +41,13 @@ contains
     type(linkage_t), intent(in) :: linkage !! with its drives, planned
     real(wp) :: crank
 
+    !> Turns that are looked at if there is no period.
+    integer, parameter :: most_turns = 8
     !> Turns are told apart where the misfits of drives differ by more than this [rad].
     real(wp), parameter :: rounding = 1.0e-9_wp
     type(pose_t) :: pose
-    real(wp) :: misfit, least
-    integer :: turns, nearest
+    real(wp) :: misfit, least, period
+    integer :: turns, nearest, all_turns
 
     crank = 0.0_wp
     if (model%is_structure) return
@@ -56,13 +58,16 @@ contains
     crank = crank/degree
     nearest = 0
     least = huge(least)
-    do turns = 0, most_turns - 1
+    period = period_of(linkage)
+    all_turns = most_turns
+    if (period > 0.0_wp) all_turns = nint(period/360.0_wp)
+    do turns = 0, all_turns - 1
       misfit = misfit_of_drives(linkage, pose, crank + 360.0_wp*turns)
       if (misfit > least - rounding) cycle
       least = misfit
       nearest = turns
     end do
-    crank = near_positions(model, crank + 360.0_wp*nearest, period_of(linkage))
+    crank = near_positions(model, crank + 360.0_wp*nearest, period)
   end function drawn_crank
 
   !> A crank angle that is moved by whole periods to the positions of the deck, the first of those

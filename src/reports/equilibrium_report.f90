@@ -43,9 +43,8 @@ contains
       call append_string(notes, potential_note)
       if (found%gaps > 0) call append_string(notes, plural(found%gaps, "sample")// &
         " without a value, at dead points or beyond what loads allow: nothing is said of them")
-      if (found%is_cut) call append_string(notes, "more than 64 turns would be "// &
-          "needed: there may "// &
-        "be further rests")
+      if (found%is_cut) call append_string(notes, "the first drive goes on beyond what has "// &
+        "been searched: there may be further rests")
     end associate
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine equilibrium_notes

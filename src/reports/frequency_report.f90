@@ -1,11 +1,11 @@
 !> `frequencies.dat` and `shapes.dat`: natural frequencies with their estimated errors, mode
 !! shapes.
 module frequency_report
+  use drive_positions, only: shown_crank
   use errors, only: error_t
   use frequency_study, only: damping_values, failure_at, find_stations, frequency_values, &
     has_result, link_of_part
   use kinds, only: wp
-  use links_report, only: shown_crank
   use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_distributed, inertia_lumped, is_damped, is_loaded, &

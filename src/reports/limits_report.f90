@@ -2,10 +2,10 @@
 !! strokes, time ratios, transmission and pressure angles, a row each.
 module limits_report
   use drive_cards, only: moves_along
+  use drive_positions, only: shown_crank
   use kinds, only: wp
   use limits_study, only: angle_of_body, crank_range_t, drive_range_t, place_of_slider, &
     quantity_t, time_ratio, transmission_of_dyad, transmission_of_lines
-  use links_report, only: shown_crank
   use table_columns, only: cells, column_width, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: name_cell
@@ -32,12 +32,12 @@ contains
         "the linkage closes nowhere")
       do r = 1, size(found%ranges)
         if (.not. found%ranges(r)%turns) then
-          call put(variant, layout, rows, part_at_end(variant, found%ranges(r), 1), &
-            "range_from", found%ranges(r)%from, shown_crank(variant, found%ranges(r)%from), &
-            of_drive=.true.)
-          call put(variant, layout, rows, part_at_end(variant, found%ranges(r), 2), &
-            "range_to", found%ranges(r)%to, shown_crank(variant, found%ranges(r)%to), &
-            of_drive=.true.)
+          if (.not. found%ranges(r)%is_open(1)) call put(variant, layout, rows, part_at_end( &
+            variant, found%ranges(r), 1), "range_from", found%ranges(r)%from, &
+            shown_crank(variant, found%ranges(r)%from), of_drive=.true.)
+          if (.not. found%ranges(r)%is_open(2)) call put(variant, layout, rows, part_at_end( &
+            variant, found%ranges(r), 2), "range_to", found%ranges(r)%to, &
+            shown_crank(variant, found%ranges(r)%to), of_drive=.true.)
         end if
         call add_low_points(variant, layout, r, rows)
         do q = 1, size(found%quantities)

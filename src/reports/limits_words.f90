@@ -1,9 +1,10 @@
 !> Words and remarks of `linkage.dat` of linkages that are no four-bars.
 module limits_words
   use drive_cards, only: moves_along
+  use drive_positions, only: shown_crank, unit_of_drive
   use kinds, only: wp
+  use limits_study, only: crank_range_t
   use linkage_notes, only: notes_on_linkage
-  use links_report, only: shown_crank
   use plan_words, only: group_words
   use table_columns, only: name_list_t, table_unit
   use text, only: append_string, string_t, to_string, trimmed_list
@@ -52,6 +53,7 @@ contains
 
     associate (found => variant%found%limits)
       do r = 1, size(found%ranges)
+        call append_cycle(variant, found%ranges(r), notes)
         if (.not. found%ranges(r)%turns) then
           associate (range => found%ranges(r))
             if (range%left_at(1) == 0) call append_end(variant, range%from, range%blocked_by(1), &
@@ -71,6 +73,31 @@ contains
     end associate
   end subroutine append_ends
 
+  !> How long a cycle is of more than a turn, or that there is none and no end of a range.
+  pure subroutine append_cycle(variant, range, notes)
+    type(variant_results_t), intent(in) :: variant
+    type(crank_range_t), intent(in) :: range
+    type(string_t), allocatable, intent(inout) :: notes(:)
+
+    character(len=:), allocatable :: from, to, what
+    logical :: along
+
+    from = to_string(shown_crank(variant, range%from), 9)
+    to = to_string(shown_crank(variant, range%to), 9)//" "//unit_of_drive(variant)
+    along = moves_along(variant%model%drives(1)%kind)
+    if (all(range%is_open)) then
+      what = ", and no cycle"
+      if (along) what = ""
+      call append_string(notes, "the first drive has no end either way"//what// &
+        ": swings and strokes are from "//from//" to "//to)
+    else if (any(range%is_open)) then
+      what = "upwards"
+      if (range%is_open(1)) what = "downwards"
+      call append_string(notes, "the first drive has no end "//what// &
+        ": swings and strokes are from "//from//" to "//to)
+    end if
+  end subroutine append_cycle
+
   !> `dead point at 216.87 deg: B by rod and a slider, forward (RRP)`
   pure subroutine append_end(variant, crank, group, notes, what)
     type(variant_results_t), intent(in) :: variant
@@ -79,17 +106,14 @@ contains
     type(string_t), allocatable, intent(inout) :: notes(:)
     character(len=*), intent(in), optional :: what !! is there; absent: a dead point
 
-    type(unit_t) :: length
-    character(len=:), allocatable :: unit, event
+    character(len=:), allocatable :: event
 
     if (group == 0) return
-    unit = "deg"
-    length = table_unit("length", variant%model%outputs)
-    if (moves_along(variant%model%drives(1)%kind)) unit = length%name
     event = "dead point"
     if (present(what)) event = what
     call append_string(notes, event//" at "//to_string(shown_crank(variant, crank), 9)//" "// &
-      unit//": "//group_words(variant%mechanism, variant%mechanism%linkage%groups(group)))
+      unit_of_drive(variant)//": "//group_words(variant%mechanism, &
+      variant%mechanism%linkage%groups(group)))
   end subroutine append_end
 
   !> The words in the columns `part`, `quantity` and `unit`.

@@ -1,5 +1,7 @@
 !> Notes on the linkage, for the heads of tables and the log.
 module linkage_notes
+  use drive_positions, only: shown_crank, unit_of_drive
+  use kinds, only: wp
   use plan_words, only: plan_notes
   use text, only: append_string, string_t, to_string
   use variant_results, only: variant_results_t
@@ -21,6 +23,7 @@ contains
 
     if (.not. variant%mechanism%is_four_bar) then
       notes = plan_notes(variant%mechanism)
+      call append_home_range(variant, notes)
       return
     end if
     associate (class => variant%found%class, found => variant%found%kinematics, &
@@ -37,6 +40,7 @@ contains
       end do
       if (size(class%limits) > 0) limits = limits//" deg"
       call append_string(notes, limits)
+      call append_home_range(variant, notes)
       if (found%at_least == 0) return
       call append_string(notes, "transmission angle: "// &
         to_string(found%transmission(state(found%at_least)))//" deg at crank "// &
@@ -45,6 +49,26 @@ contains
         to_string(crank(found%at_most), 10))
     end associate
   end function notes_on_linkage
+
+  !> The cycle, if it is longer than a turn, and the range in which the linkage is, if there are
+  !! several.
+  pure subroutine append_home_range(variant, notes)
+    type(variant_results_t), intent(in) :: variant
+    type(string_t), allocatable, intent(inout) :: notes(:)
+
+    character(len=:), allocatable :: range
+
+    associate (home => variant%found%home)
+      if (home%period > 0.0_wp) call append_string(notes, "cycle: "//to_string(home%period, 7)// &
+        " deg of the first drive, after which the linkage repeats its positions")
+      if (home%ranges == 0) return
+      range = "range of the first position in reach: "
+      if (home%is_drawn) range = "range of the drawing: "
+      call append_string(notes, range//to_string(shown_crank(variant, home%ends(1)), 9)//" to "// &
+        to_string(shown_crank(variant, home%ends(2)), 9)//" "//unit_of_drive(variant)//", one of "// &
+        to_string(home%ranges)//"; positions in others are reached only by taking the linkage apart")
+    end associate
+  end subroutine append_home_range
 
   !> The links with the angles theta3 and theta4, and the pins from and to which these are
   !! measured.

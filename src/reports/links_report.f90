@@ -7,17 +7,15 @@ module links_report
   use links_study, only: link_at_speed, pin_at_speed
   use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
-  use models, only: drives_length
-  use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t
+  use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_row, rows_t
   use tables, only: name_cell
   use text, only: append_string, same_word, string_t
-  use units, only: from_si
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: links_notes, add_links, pins_notes, pin_names, add_pins, shown_crank
+  public :: links_notes, add_links, pins_notes, pin_names, add_pins
 
 contains
 
@@ -141,17 +139,5 @@ contains
       end associate
     end associate
   end subroutine add_pins
-
-  !> A position in the unit of tables: angles in degrees, places of a slider or a ram in the deck's
-  !! lengths.
-  pure function shown_crank(variant, crank) result(shown)
-    type(variant_results_t), intent(in) :: variant !! with its model
-    real(wp), intent(in) :: crank                  !! [deg] or [m]
-    real(wp) :: shown
-
-    shown = crank
-    if (drives_length(variant%model)) shown = from_si(crank, table_factor("length", &
-      variant%model%outputs))
-  end function shown_crank
 
 end module links_report

@@ -3,10 +3,10 @@
 !! The deck and the table call a locus a branch. In the code a branch is an assembly mode of the
 !! linkage.
 module loci_report
+  use drive_positions, only: shown_crank
   use errors, only: error_t
   use frequency_report, only: effects_notes, shown_speed
   use frequency_study, only: failure_at
-  use links_report, only: shown_crank
   use loci_study, only: event_ambiguous, event_crossing, event_start, event_veering, failed_rows, &
     is_empty, locus_row_t, rows_of_locus
   use table_columns, only: cells, name_list_t, table_layout_t

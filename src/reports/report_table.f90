@@ -15,6 +15,7 @@ module report_table
   use campbell_report, only: add_campbell, add_critical, campbell_notes, campbell_words, &
     critical_notes
   use drive_motions, only: place_columns, table_place
+  use drive_positions, only: shown_crank
   use drive_report, only: add_drive, drive_notes
   use equilibrium_report, only: add_equilibria, add_potential, equilibrium_notes, &
     equilibrium_words, potential_notes
@@ -47,7 +48,7 @@ module report_table
     linkage_motion_count, linkage_motion_notes
   use linkage_report, only: add_linkage, linkage_remarks, linkage_words
   use linkage_study, only: find_linkage
-  use links_report, only: add_links, add_pins, links_notes, pin_names, pins_notes, shown_crank
+  use links_report, only: add_links, add_pins, links_notes, pin_names, pins_notes
   use locked_rows, only: is_locked_at, lock_at
   use loci_report, only: add_loci, loci_notes, locus_words
   use mesh_report, only: add_mesh, mesh_notes

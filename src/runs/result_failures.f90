@@ -46,7 +46,7 @@ contains
               crank(i), 0, variant%model%time%value(i), findings)
           else if (allocated(found%positions%states(state)%error)) then
             call note_failure(variant, at_position, found%positions%states(state)%error, &
-              crank(i), 0, 0.0_wp, findings)
+              crank(i), 0, 0.0_wp, findings, i)
           else if (needs_frequencies(variant%model)) then
             do k = 1, size(found%sweep%request%speed)
               if (has_result(found%positions, found%sweep, state, k)) cycle
@@ -224,7 +224,7 @@ contains
     end associate
   end function last_crank
 
-  pure subroutine note_failure(variant, stage, error, crank, speed, time, findings)
+  pure subroutine note_failure(variant, stage, error, crank, speed, time, findings, position)
     type(variant_results_t), intent(in) :: variant
     integer, intent(in) :: stage     !! one of those of `run_findings`
     type(error_t), intent(in) :: error
@@ -233,11 +233,13 @@ contains
                                      !! the deck; 0: none
     real(wp), intent(in) :: time     !! [s]
     type(findings_t), intent(inout) :: findings
+    integer, intent(in), optional :: position !! number in the deck's list
 
     type(failure_t) :: failure
     type(unit_t) :: unit
 
     failure%stage = stage
+    if (present(position)) failure%position = position
     failure%crank = crank
     if (drives_length(variant%model)) then
       unit = table_unit("length", variant%model%outputs)

@@ -26,6 +26,7 @@ module run_findings
   !> A position, or an instant of a motion, without a result.
   type :: failure_t
     integer :: stage = at_position           !! one of the stages above
+    integer :: position = 0                  !! number of a position in the deck's list; 0: of none
     real(wp) :: crank = 0.0_wp               !! of a position or motion [deg], of a slider or a ram
                                              !! [m]
     character(len=:), allocatable :: crank_words !! the same of a slider or a ram, in the unit of
@@ -177,7 +178,7 @@ contains
     call put_integers(buffer, [int(findings%failures), findings%kept, findings%warning_count])
     do i = 1, findings%kept
       associate (failure => findings%failed(i))
-        call put_integers(buffer, [failure%stage, size(failure%varied)])
+        call put_integers(buffer, [failure%stage, failure%position, size(failure%varied)])
         call put_reals(buffer, [failure%crank, failure%speed, failure%time, failure%varied])
         call put_error(buffer, failure%error)
         call put_string(buffer, failure%variant)
@@ -224,15 +225,16 @@ contains
     type(failure_t), intent(inout) :: failure
 
     real(wp) :: numbers(3)
-    integer :: codes(2)
+    integer :: codes(3)
 
     call get_integers(bytes, at, codes)
     call get_reals(bytes, at, numbers)
     failure%stage = codes(1)
+    failure%position = codes(2)
     failure%crank = numbers(1)
     failure%speed = numbers(2)
     failure%time = numbers(3)
-    allocate (failure%varied(codes(2)))
+    allocate (failure%varied(codes(3)))
     call get_reals(bytes, at, failure%varied)
     call get_error(bytes, at, failure%error)
     call get_string(bytes, at, failure%variant)

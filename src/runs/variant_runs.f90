@@ -6,6 +6,7 @@ module variant_runs
     most_attempts, solve_block
   use interruption, only: was_interrupted
   use jobs, only: job_t
+  use home_ranges, only: find_home_range
   use kinds, only: wp
   use link_store, only: link_store_t
   use linkage_motion_study, only: begin_linkage_motion, continue_linkage_motion, &
@@ -15,14 +16,14 @@ module variant_runs
   use linkages, only: linkage_t
   use loci_study, only: follow_loci
   use mechanisms, only: mechanism_t, new_mechanism
-  use models, only: has_law, model_t, needs_positions, needs_study
+  use models, only: has_law, model_t, needs_positions, needs_study, report_number
   use motion_study, only: begin_motion, continue_motion, finish_motion, motion_request_t, &
     motion_under_way_t
   use position_study, only: find_all_positions
   use positions, only: by_crank_angle, refuse_change_points
   use progress, only: progress_t, show_progress
   use rank_tasks, only: help_with_tasks
-  use reach_texts, only: open_linkage_text, reachable_text
+  use reach_texts, only: open_linkage_text, reach_words
   use report_table, only: find_study, study_names
   use response_study, only: find_response
   use stability_study, only: find_intervals_of, find_stability_of
@@ -94,6 +95,8 @@ contains
       else
         found%class = class_of_other()
       end if
+      if (found%class%reach%closes .and. .not. (model%is_structure .or. has_law(model))) &
+        call find_home_range(model, linkage, has_gaps(run%results), found%home)
       call find_study("kinematics", threads, run%results)
       do i = 1, size(study_names)
         if (study_names(i) == "kinematics" .or. .not. needs_study(model, study_names(i))) cycle
@@ -127,10 +130,10 @@ contains
       end do
       if (allocated(found%geometry%outcome)) then
         do i = 1, size(found%geometry%outcome)
-          call name_parts(run%results%mechanism, found%geometry%outcome(i)%error)
+          call name_parts(run%results%model, run%results%mechanism, found%geometry%outcome(i)%error)
         end do
       end if
-      call name_parts(run%results%mechanism, found%linkage_motion%error)
+      call name_parts(run%results%model, run%results%mechanism, found%linkage_motion%error)
     end associate
   end subroutine compute_variant
 
@@ -155,42 +158,51 @@ contains
     end associate
   end subroutine find_positions_of
 
+  !> Whether positions are out of reach, or ranges are asked for.
+  pure function has_gaps(variant) result(has)
+    type(variant_results_t), intent(in) :: variant !! with positions
+    logical :: has
+
+    integer :: i
+
+    has = report_number(variant%model, "linkage") > 0
+    do i = 1, size(variant%found%positions%states)
+      if (has) return
+      associate (state => variant%found%positions%states(i))
+        if (allocated(state%error)) has = state%error%kind == error_of_reach .and. &
+          state%error%place%pin == 0
+      end associate
+    end do
+  end function has_gaps
+
   !> Puts names into the errors of positions.
-  pure subroutine name_positions(variant)
+  subroutine name_positions(variant)
     type(variant_results_t), intent(inout) :: variant !! with positions
 
     integer :: i
 
     do i = 1, size(variant%found%positions%states)
-      call name_parts(variant%mechanism, variant%found%positions%states(i)%error)
+      call name_parts(variant%model, variant%mechanism, variant%found%positions%states(i)%error)
     end do
   end subroutine name_positions
 
-  !> Says why positions are out of reach, and which ones the linkage reaches. There are such
-  !! positions in decks with VARY only.
+  !> Says of a linkage that closes nowhere why, at all its positions. There are such in decks with
+  !! VARY only.
   subroutine explain_positions(variant)
     type(variant_results_t), intent(inout) :: variant !! with positions and class
 
-    logical :: is_out(size(variant%found%positions%states))
     integer :: i
 
-    associate (states => variant%found%positions%states, reach => variant%found%class%reach)
-      is_out = .false.
-      do i = 1, size(states)
-        if (allocated(states(i)%error)) is_out(i) = states(i)%error%kind == error_of_reach
-      end do
-      if (reach%closes .and. .not. any(is_out)) return
+    associate (states => variant%found%positions%states)
+      if (variant%found%class%reach%closes) return
       ! One thread at a time makes texts: gfortran 12 keeps the lengths of such results in one place
       ! for all threads.
       !$omp critical (one_at_a_time)
-      if (reach%closes) then
-        variant%unreachable = "out of reach: the linkage closes "//reachable_text(reach)
-      else
-        variant%unreachable = open_linkage_text(variant%mechanism)
-      end if
+      variant%unreachable = open_linkage_text(variant%mechanism)
       !$omp end critical (one_at_a_time)
       do i = 1, size(states)
-        if (is_out(i)) states(i)%error%text = variant%unreachable
+        if (.not. allocated(states(i)%error)) cycle
+        if (states(i)%error%kind == error_of_reach) states(i)%error%text = variant%unreachable
       end do
     end associate
   end subroutine explain_positions
@@ -251,7 +263,7 @@ contains
         threads, store, response)
       do k = 1, size(response%at_speed)
         if (.not. allocated(response%at_speed(k)%error)) cycle
-        call name_parts(mechanism, response%at_speed(k)%error)
+        call name_parts(run%results%model, mechanism, response%at_speed(k)%error)
       end do
     end associate
   end subroutine compute_response
@@ -270,7 +282,7 @@ contains
         threads, store, stability)
       do k = 1, size(stability%at_speed)
         if (.not. allocated(stability%at_speed(k)%error)) cycle
-        call name_parts(mechanism, stability%at_speed(k)%error)
+        call name_parts(run%results%model, mechanism, stability%at_speed(k)%error)
       end do
     end associate
   end subroutine compute_stability
@@ -288,7 +300,7 @@ contains
         mechanism), &
         threads, store, intervals)
       do k = 1, size(intervals%gap)
-        call name_part(mechanism, intervals%gap(k)%error)
+        call name_part(run%results%model, mechanism, intervals%gap(k)%error)
       end do
     end associate
   end subroutine compute_intervals
@@ -307,7 +319,7 @@ contains
         threads, store, campbell)
       do k = 1, size(campbell%at_speed)
         if (.not. allocated(campbell%at_speed(k)%error)) cycle
-        call name_parts(mechanism, campbell%at_speed(k)%error)
+        call name_parts(run%results%model, mechanism, campbell%at_speed(k)%error)
       end do
     end associate
   end subroutine compute_campbell
@@ -324,7 +336,7 @@ contains
         mechanism), store, transient)
       do k = 1, size(transient%at_speed)
         if (.not. allocated(transient%at_speed(k)%error)) cycle
-        call name_parts(mechanism, transient%at_speed(k)%error)
+        call name_parts(run%results%model, mechanism, transient%at_speed(k)%error)
       end do
     end associate
   end subroutine compute_transient
@@ -362,7 +374,7 @@ contains
       end do
       sweep%counts%link_models = store%made - made
       call finish_sweep(sweep)
-      call name_links(mechanism, sweep)
+      call name_links(run%results%model, mechanism, sweep)
     end associate
   end subroutine compute_sweep
 
@@ -400,7 +412,8 @@ contains
   end subroutine help_with_sweep
 
   !> Puts the name of the link before every error that is about one: a sweep knows its number only.
-  pure subroutine name_links(mechanism, sweep)
+  subroutine name_links(model, mechanism, sweep)
+    type(model_t), intent(in) :: model         !! its units
     type(mechanism_t), intent(in) :: mechanism !! with names
     type(sweep_t), intent(inout) :: sweep
 
@@ -409,28 +422,35 @@ contains
     do i = 1, size(sweep%results)
       if (.not. allocated(sweep%results(i)%outcome)) cycle
       do k = 1, size(sweep%results(i)%outcome)
-        call name_parts(mechanism, sweep%results(i)%outcome(k)%error)
+        call name_parts(model, mechanism, sweep%results(i)%outcome(k)%error)
       end do
     end do
   end subroutine name_links
 
   !> Puts names into an error if there is one.
-  pure subroutine name_parts(mechanism, error)
+  subroutine name_parts(model, mechanism, error)
+    type(model_t), intent(in) :: model                 !! its units
     type(mechanism_t), intent(in) :: mechanism         !! with names
     type(error_t), allocatable, intent(inout) :: error !! may be unallocated: no error
 
-    if (allocated(error)) call name_part(mechanism, error)
+    if (allocated(error)) call name_part(model, mechanism, error)
   end subroutine name_parts
 
   !> Puts the name of the link before an error that is about one; of a block that leaves its link,
-  !! both names.
-  pure subroutine name_part(mechanism, error)
+  !! both names; says what does not reach.
+  subroutine name_part(model, mechanism, error)
+    type(model_t), intent(in) :: model         !! its units
     type(mechanism_t), intent(in) :: mechanism !! with names
     type(error_t), intent(inout) :: error
 
     if (error%place%pin > 0) then
       error%text = "the block at "//mechanism%pin_names(error%place%pin)%text//" leaves '"// &
         mechanism%names(error%place%body)%text//"'"
+    else if (abs(error%missing) > 0.0_wp) then
+      ! One thread at a time makes texts: see above.
+      !$omp critical (one_at_a_time)
+      error%text = "out of reach: "//reach_words(model, mechanism, error)
+      !$omp end critical (one_at_a_time)
     else if (error%place%body > 0) then
       error%text = "link '"//mechanism%names(error%place%body)%text//"': "//error%text
     end if

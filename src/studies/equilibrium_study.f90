@@ -100,6 +100,7 @@ contains
     do r = 1, size(ranges)
       ends = [ranges(r)%from, ranges(r)%to]
       if (ranges(r)%turns) call extend_turns(linkage, rigid, ends, found%is_cut)
+      found%is_cut = found%is_cut .or. any(ranges(r)%is_open)
       if (r == 1) found%sampled = ends
       found%sampled = [min(found%sampled(1), ends(1)), max(found%sampled(2), ends(2))]
       call search_range(linkage, rigid, ends, ranges(r)%turns, found)
@@ -199,7 +200,8 @@ contains
     real(wp), parameter :: off = 0.236_wp
 
     n = samples_per_range
-    if (turns) n = max(n, ceiling((ends(2) - ends(1))/360.0_wp)*samples_per_range)
+    if (linkage%drives(1)%kind == drives_angle) n = max(n, ceiling((ends(2) - &
+      ends(1))/360.0_wp)*samples_per_range)
     repeats = turns
     if (turns) repeats = load_period(linkage, period_of(linkage)) > 0.0_wp
     allocate (samples(0:n))

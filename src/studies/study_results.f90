@@ -7,6 +7,7 @@ module study_results
   use friction_study, only: friction_result_t
   use geometry_study, only: geometry_result_t
   use harmonics_study, only: harmonics_result_t
+  use home_ranges, only: home_range_t
   use inertia_study, only: inertia_result_t
   use joint_study, only: joints_result_t
   use kinematics_study, only: kinematics_result_t
@@ -31,6 +32,7 @@ module study_results
   type :: study_results_t
     type(positions_t) :: positions
     type(linkage_class_t) :: class
+    type(home_range_t) :: home
     type(kinematics_result_t) :: kinematics
     type(geometry_result_t) :: geometry
     type(inertia_result_t) :: inertia

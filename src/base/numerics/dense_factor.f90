@@ -116,7 +116,7 @@ contains
     real(wp) :: value !! in [−1, 1]; 0: singular
 
     integer, parameter :: most_iterations = 50
-    real(wp), parameter :: accuracy = 1.0e-8_wp
+    real(wp), parameter :: accuracy = 1.0e-10_wp
     real(wp) :: v(size(factor%lu, 1)), last
     integer :: i
 

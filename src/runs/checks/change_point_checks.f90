@@ -15,8 +15,8 @@ module change_point_checks
 
 contains
 
-  !> Warns at every change point where each position is on its side: there are corners in the
-  !! motion, which a user rarely means. Whoever writes `change_points=branch` does.
+  !> Warns at every change point between the positions of the deck where each is on its side: there
+  !! are corners in the motion, which a user rarely means. Whoever writes `change_points=branch` does.
   subroutine warn_of_change_points(model, mechanism, diagnostics)
     type(model_t), intent(in) :: model                !! without errors
     type(mechanism_t), intent(in) :: mechanism        !! of this model
@@ -34,7 +34,9 @@ contains
       if (place%line == 0) place = model%branches(1)%pin
       do i = 1, size(path%bridges)
         crank = path%bridges(i)%change
-        if (path%period > 0.0_wp) crank = modulo(crank, path%period)
+        if (path%period > 0.0_wp) crank = minval(model%crank%value) + modulo(crank - &
+          minval(model%crank%value), path%period)
+        if (crank > maxval(model%crank%value)) cycle
         call add_warning(diagnostics, place, "change point at crank "//crank_text(model, crank, &
           6)//": by BRANCH every position keeps its side there, "//group_words(mechanism, &
           mechanism%linkage%groups(path%bridges(i)%group))//", with a corner in the motion; "// &

@@ -8,24 +8,24 @@ module deck_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use drawing_checks, only: check_drawing
   use errors, only: error_of_reach
-  use four_bar_limits, only: can_reach, crank_reach, reach_t
+  use four_bar_limits, only: crank_reach, reach_t
   use kinds, only: wp
   use linkage_checks, only: check_linkage
   use linkage_parts, only: assemble_linkage, assembly_t
   use mechanisms, only: mechanism_of, mechanism_t
-  use models, only: has_law, is_four_bar, model_t, needs_frequencies, needs_response, pivots, &
+  use models, only: is_four_bar, model_t, needs_frequencies, needs_response, pivots, &
     report_number, solver_band, solver_dense, steady_state_report
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
   use plan_faults, only: report_problem
-  use reach_texts, only: longest_link, open_linkage_text, reachable_intervals, reachable_text
+  use reach_checks, only: check_reach, interval_words, reachable_intervals
+  use reach_texts, only: longest_link, open_linkage_text
   use rest_eigenvalues, only: lowest_rest_eigenvalues
   use round_off, only: round_off_error
   use sorting, only: ascending_order
   use structures, only: elements_replaced, has_beams, has_mesh, structure_t
   use text, only: plural, to_string
   use tokens, only: token_t
-  use value_lists, only: value_list_t
   implicit none (type, external)
   private
 
@@ -49,7 +49,7 @@ contains
     type(mechanism_t) :: mechanism
     type(reach_t) :: reach
     type(assembly_t) :: assembly
-    integer :: pivot(2)
+    integer :: pivot(2), report, leaving
 
     call check_columns(model, diagnostics)
     call check_drawing(model, diagnostics)
@@ -86,11 +86,13 @@ contains
       call report_open_linkage(model, mechanism, diagnostics)
       return
     end if
-    call check_reach(model, reach, diagnostics)
-    call check_geometry(model, reach, diagnostics)
+    call check_reach(model, mechanism, model%crank, leaving, diagnostics)
+    report = report_number(model, "geometry")
+    if (report > 0) call check_reach(model, mechanism, model%reports(report)%crank, leaving, &
+      diagnostics)
     call check_turn(model, mechanism, reach, diagnostics)
     call check_balance_turn(model, mechanism, diagnostics)
-    call check_motion(model, mechanism, reach, reachable_text(reach), diagnostics)
+    call check_motion(model, mechanism, reach, diagnostics)
     call check_matrices(model, mechanism, diagnostics)
   end subroutine check_mechanics
 
@@ -126,54 +128,6 @@ contains
     call add_error(diagnostics, place, open_linkage_text(mechanism), kind=error_of_reach)
   end subroutine report_open_linkage
 
-  !> Positions out of reach: one message with all that is needed to correct the deck.
-  subroutine check_reach(model, reach, diagnostics)
-    type(model_t), intent(in) :: model
-    type(reach_t), intent(in) :: reach
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    character(len=:), allocatable :: message, remedy
-    logical :: out_of_reach(size(model%crank%value))
-    integer :: first
-
-    out_of_reach = .not. can_reach(reach, model%crank%value)
-    if (.not. any(out_of_reach)) return
-    first = findloc(out_of_reach, .true., dim=1)
-    if (count(out_of_reach) == 1) then
-      message = "the crank angle "//to_string(model%crank%value(first), 10)//" deg is out of reach"
-    else
-      message = to_string(count(out_of_reach))//" crank angles are out of reach, the first at "// &
-        to_string(model%crank%value(first), 10)//" deg"
-    end if
-    if (has_law(model)) then
-      remedy = ""
-    else
-      remedy = ": "//ready_card(reach, step_of(model%crank))
-    end if
-    call add_error(diagnostics, model%crank%words(model%crank%word(first)), &
-      message//"; the linkage closes "//reachable_text(reach)//remedy, kind=error_of_reach)
-  end subroutine check_reach
-
-  !> Positions out of reach that REPORT geometry asks for.
-  subroutine check_geometry(model, reach, diagnostics)
-    type(model_t), intent(in) :: model
-    type(reach_t), intent(in) :: reach
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    integer :: number, i
-
-    number = report_number(model, "geometry")
-    if (number == 0) return
-    associate (crank => model%reports(number)%crank)
-      do i = 1, size(crank%value)
-        if (can_reach(reach, crank%value(i))) cycle
-        call add_error(diagnostics, crank%words(crank%word(i)), "the crank angle "// &
-          to_string(crank%value(i), 10)//" deg is out of reach; the linkage closes "// &
-          reachable_text(reach), kind=error_of_reach)
-      end do
-    end associate
-  end subroutine check_geometry
-
   !> The elastic response is a steady state: the crank has to turn fully, without a dead point.
   subroutine check_turn(model, mechanism, reach, diagnostics)
     type(model_t), intent(in) :: model
@@ -198,61 +152,14 @@ contains
     no_state = "; REPORT "//trim(model%reports(report)%kind%name)//" is on "//no_state//" of "// &
       "a crank that turns fully, and there is none"
     if (reach%least > 0.0_wp .or. reach%most < 180.0_wp) then
-      call add_error(diagnostics, place, "the crank turns only "//reachable_text(reach)//no_state, &
+      call add_error(diagnostics, place, "the crank turns only "//interval_words(model, &
+        reachable_intervals(model, mechanism, [0.0_wp], model%crank%value))//no_state, &
         kind=error_of_reach)
     else
       call add_error(diagnostics, place, "the crank meets a dead point, where the links are in "// &
         "line"//no_state, kind=error_of_reach)
     end if
   end subroutine check_turn
-
-  !> The step that the user has in mind: that of the first range, or 5 degrees.
-  pure function step_of(crank) result(step)
-    type(value_list_t), intent(in) :: crank
-    real(wp) :: step
-
-    step = 5.0_wp
-    if (size(crank%value) < 2) return
-    if (crank%word(1) == crank%word(2)) step = abs(crank%value(2) - crank%value(1))
-  end function step_of
-
-  !> The reachable crank angles as a CRANK card. It keeps off the limits: these are dead points, and
-  !! near them frequencies fade.
-  pure function ready_card(reach, step) result(card)
-    type(reach_t), intent(in) :: reach
-    real(wp), intent(in) :: step !! [deg]
-    character(len=:), allocatable :: card
-
-    real(wp), allocatable :: limits(:, :)
-    integer :: i
-
-    limits = reachable_intervals(reach)
-    card = "CRANK"
-    do i = 1, size(limits, 2)
-      card = card//" "//interval(limits(1, i), limits(2, i), step)
-    end do
-  end function ready_card
-
-  !> `a to b step s`, half a degree or more inside the limits; a twentieth in a short interval, the
-  !! middle alone in a tiny one.
-  pure function interval(a, b, step) result(range_text)
-    real(wp), intent(in) :: a, b, step !! [deg]
-    character(len=:), allocatable :: range_text
-
-    real(wp), parameter :: short = 10.0_wp
-    real(wp) :: grid
-    integer :: first, last
-
-    grid = merge(1.0_wp, 10.0_wp, b - a > short)
-    first = ceiling(a*grid + 0.5_wp)
-    last = floor(b*grid - 0.5_wp)
-    if (first < last) then
-      range_text = to_string(first/grid, 9)//" to "//to_string(last/grid, 9)//" step "// &
-        to_string(step)
-    else
-      range_text = to_string(0.5_wp*(a + b), 12)
-    end if
-  end function interval
 
   !> Refuses more modes than the mesh has unknowns, or than SOLVER band finds of them.
   subroutine check_unknowns(model, mechanism, diagnostics)

@@ -7,7 +7,7 @@ module deck_lengths
   implicit none (type, external)
   private
 
-  public :: in_deck, length_text, crank_text
+  public :: in_deck, length_text, crank_text, unit_of_crank
 
 contains
 
@@ -32,6 +32,19 @@ contains
     measure = coherent_unit(model%units, dimension_length)
     words = to_string(in_deck(model, length), digits)//" "//measure%name
   end function length_text
+
+  !> The unit of the positions of the first drive in the deck.
+  pure function unit_of_crank(model) result(unit)
+    type(model_t), intent(in) :: model !! as read
+    character(len=:), allocatable :: unit
+
+    type(unit_t) :: measure
+
+    unit = "deg"
+    if (.not. drives_length(model)) return
+    measure = coherent_unit(model%units, dimension_length)
+    unit = measure%name
+  end function unit_of_crank
 
   !> A position of the first drive: in degrees, of a slider or a ram in the unit of the deck.
   pure function crank_text(model, crank, digits) result(words)

@@ -15,7 +15,8 @@ module linkage_checks
     report_number, solver_band, solver_dense
   use plan_words, only: group_names
   use pose_types, only: pose_t
-  use poses, only: place_links, place_parts
+  use poses, only: place_parts
+  use reach_checks, only: check_reach
   use ram_checks, only: check_rams
   use redundancies, only: body_of_redundancy, largest_misfit
   use response_linkage_checks, only: check_running
@@ -81,7 +82,7 @@ contains
     if (allocated(mechanism%elastic)) call check_straight_guides(model, mechanism, diagnostics)
     if (needs_frequencies(model) .and. model%effects == effects_axial) call &
       warn_of_held_blocks(model, diagnostics)
-    call check_reach(model, mechanism, leaving, diagnostics)
+    call check_reach(model, mechanism, model%crank, leaving, diagnostics)
     if (leaving > 0) call check_blocks(model, mechanism, diagnostics)
     if (needs_frequencies(model) .and. .not. has_errors(diagnostics)) call check_mesh(model, &
       mechanism, diagnostics)
@@ -277,47 +278,5 @@ contains
       end do
     end do
   end function neighbours_of
-
-  !> Positions out of reach: an error if none is in reach, else a warning with the first and their
-  !! number. Blocks that leave their links have messages of their own.
-  pure subroutine check_reach(model, mechanism, leaving, diagnostics)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    integer, intent(out) :: leaving !! positions at which a block leaves its link
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    type(error_t), allocatable :: error
-    type(pose_t) :: pose
-    character(len=:), allocatable :: why
-    integer :: i, out_of_reach, first
-
-    out_of_reach = 0
-    leaving = 0
-    first = 0
-    do i = 1, size(model%crank%value)
-      call place_links(mechanism%linkage, model%crank%value(i), pose, error)
-      if (.not. allocated(error)) cycle
-      if (error%kind /= error_of_reach) cycle
-      if (error%place%pin > 0) then
-        leaving = leaving + 1
-        cycle
-      end if
-      out_of_reach = out_of_reach + 1
-      if (first > 0) cycle
-      first = i
-      why = ""
-      if (error%place%body > 0) why = ": '"//mechanism%names(error%place%body)%text// &
-        "' does not "//trim(merge("fit  ", "reach", index(error%text, "redundant") > 0))
-    end do
-    if (out_of_reach == 0) return
-    if (out_of_reach + leaving == size(model%crank%value)) then
-      call add_error(diagnostics, model%crank%words(model%crank%word(first)), &
-        "the linkage closes at none of these positions"//why, kind=error_of_reach)
-    else
-      call add_warning(diagnostics, model%crank%words(model%crank%word(first)), &
-        plural(out_of_reach, "position")//" of "//to_string(size(model%crank%value))// &
-        " out of reach, the first at "//crank_text(model, model%crank%value(first), 10)//why)
-    end if
-  end subroutine check_reach
 
 end module linkage_checks

@@ -8,6 +8,7 @@ module motion_checks
   use linkages, only: linkage_t
   use mechanisms, only: mechanism_t
   use models, only: model_t, report_number
+  use reach_checks, only: interval_words, reachable_intervals
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t
   use text, only: to_string
   implicit none (type, external)
@@ -20,11 +21,10 @@ contains
   !> Whether REPORT motion can start, if the deck has it.
   !!
   !! Errors: the linkage does not close at the initial crank angle; nothing that moves has a mass.
-  subroutine check_motion(model, mechanism, reach, reachable, diagnostics)
+  subroutine check_motion(model, mechanism, reach, diagnostics)
     type(model_t), intent(in) :: model                !! without errors so far
     type(mechanism_t), intent(in) :: mechanism        !! of the model
     type(reach_t), intent(in) :: reach                !! crank angles at which the linkage closes
-    character(len=*), intent(in) :: reachable         !! the same in words
     type(diagnostics_t), intent(inout) :: diagnostics !! to which errors are appended
 
     integer :: number
@@ -35,7 +35,8 @@ contains
       if (.not. can_reach(reach, report%start_angle)) then
         call add_error(diagnostics, report%start_angle_word, "the initial crank angle "// &
           to_string(report%start_angle, 10)//" deg is out of reach; the linkage closes "// &
-          reachable, kind=error_of_reach)
+          interval_words(model, reachable_intervals(model, mechanism, [report%start_angle], &
+          [report%start_angle])), kind=error_of_reach)
       end if
       if (has_moving_mass(mechanism%linkage, mechanism%load_elements) .or. &
         model%motor%rotor > 0.0_wp) return

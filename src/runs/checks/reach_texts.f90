@@ -1,13 +1,14 @@
-!> What a four-bar reaches, in words: for messages about a deck and for failed rows.
+!> What a linkage reaches, in words: for messages about a deck and for failed rows.
 module reach_texts
-  use four_bar_limits, only: reach_t
+  use deck_lengths, only: length_text
+  use errors, only: error_t
   use kinds, only: wp
   use mechanisms, only: mechanism_t
-  use text, only: to_string
+  use models, only: model_t
   implicit none (type, external)
   private
 
-  public :: open_linkage_text, longest_link, reachable_text, reachable_intervals
+  public :: open_linkage_text, longest_link, reach_words
 
 contains
 
@@ -40,39 +41,27 @@ contains
     end associate
   end function longest_link
 
-  !> `between -132.6 and 132.6 deg`
-  pure function reachable_text(reach) result(phrase)
-    type(reach_t), intent(in) :: reach !! of a linkage that closes
-    character(len=:), allocatable :: phrase
+  !> What does not reach, and by how much: `'rod' is 12.5 mm too short`; empty if it is not known.
+  pure function reach_words(model, mechanism, error) result(words)
+    type(model_t), intent(in) :: model         !! its units
+    type(mechanism_t), intent(in) :: mechanism !! of this model
+    type(error_t), intent(in) :: error         !! of a position out of reach
+    character(len=:), allocatable :: words
 
-    real(wp), allocatable :: limits(:, :)
-    integer :: i
-
-    limits = reachable_intervals(reach)
-    phrase = ""
-    do i = 1, size(limits, 2)
-      if (i > 1) phrase = phrase//" and "
-      phrase = phrase//"between "//to_string(limits(1, i), 7)//" and "//to_string(limits(2, i), 7)
-    end do
-    phrase = phrase//" deg"
-  end function reachable_text
-
-  !> The crank angles at which a linkage closes: one interval or two, from the global x axis.
-  pure function reachable_intervals(reach) result(limits)
-    type(reach_t), intent(in) :: reach    !! of a linkage that closes
-    real(wp), allocatable :: limits(:, :) !! (2, intervals) [deg]
-
-    real(wp), parameter :: near_zero = 1.0e-9_wp
-
-    if (reach%least <= near_zero) then
-      limits = reshape([-reach%most, reach%most], [2, 1])
-    else if (reach%most >= 180.0_wp - near_zero) then
-      limits = reshape([reach%least, 360.0_wp - reach%least], [2, 1])
+    words = ""
+    if (error%place%body == 0) return
+    words = "'"//mechanism%names(error%place%body)%text//"'"
+    if (error%place%other > 0) then
+      words = words//" and '"//mechanism%names(error%place%other)%text//"' together are"
+    else if (abs(error%missing) > 0.0_wp) then
+      words = words//" is"
     else
-      limits = reshape([reach%least, reach%most, 360.0_wp - reach%most, 360.0_wp - reach%least], &
-        [2, 2])
+      words = words//" does not "//trim(merge("fit  ", "reach", index(error%text, &
+        "redundant") > 0))
+      return
     end if
-    limits = limits + reach%ground
-  end function reachable_intervals
+    words = words//" "//length_text(model, abs(error%missing), 6)//" too "//trim(merge("short", &
+      "long ", error%missing > 0.0_wp))
+  end function reach_words
 
 end module reach_texts

@@ -2,6 +2,7 @@
 module findings_texts
   use deck_source, only: source_t
   use diagnostics, only: diagnostics_t, warning_texts
+  use kinds, only: wp
   use run_findings, only: at_forces, at_instant, at_position, failure_t, findings_t, in_motion, &
     in_response, in_campbell, in_intervals, in_stability, in_transient, of_variant, &
     place_of_failure, untold_failures, warnings_of_grade
@@ -56,6 +57,81 @@ contains
     if (len(failure%variant) > 0) line = failure%variant//", "//line
   end function failure_text
 
+  !> Number of the last failure that is like one: at the next positions, for the same reason.
+  pure function last_alike(findings, number) result(last)
+    type(findings_t), intent(in) :: findings
+    integer, intent(in) :: number
+    integer :: last
+
+    last = number
+    associate (failed => findings%failed)
+      do while (last < findings%kept)
+        if (.not. is_alike(failed(last), failed(last + 1))) return
+        last = last + 1
+      end do
+    end associate
+  end function last_alike
+
+  !> Whether two positions fail for the same reason: the same links are too short, by however much.
+  pure function is_alike(one, other) result(is)
+    type(failure_t), intent(in) :: one, other
+    logical :: is
+
+    is = one%position > 0 .and. other%position == one%position + 1 .and. &
+      one%variant == other%variant .and. one%error%kind == other%error%kind
+    if (.not. is) return
+    if (abs(one%error%missing) > 0.0_wp) then
+      is = one%error%missing*other%error%missing > 0.0_wp .and. &
+        one%error%place%body == other%error%place%body .and. &
+        one%error%place%other == other%error%place%other
+    else
+      is = one%error%text == other%error%text
+    end if
+  end function is_alike
+
+  !> `crank 0 to 25 deg, 6 positions: out of reach: 'rod' is 12.5 mm too short at 0 deg`: failures
+  !! that are alike, with the worst of them.
+  pure function text_of_alike(findings, first, last) result(line)
+    type(findings_t), intent(in) :: findings
+    integer, intent(in) :: first, last
+    character(len=:), allocatable :: line
+
+    integer, parameter :: word = len("crank ")
+    type(failure_t) :: all
+    character(len=:), allocatable :: from, to
+    integer :: worst, i
+
+    if (first == last) then
+      line = failure_text(findings%failed(first))
+      return
+    end if
+    associate (failed => findings%failed)
+      worst = first
+      do i = first, last
+        if (abs(failed(i)%error%missing) > abs(failed(worst)%error%missing)) worst = i
+      end do
+      from = place_of_failure(failed(first))
+      to = place_of_failure(failed(last))
+      all = failed(worst)
+      if (abs(all%error%missing) > 0.0_wp) all%error%text = all%error%text//" at "// &
+        tail_of(place_of_failure(failed(worst)))
+      ! One unit serves both ends.
+      all%crank_words = from(word + 1:index(from, " ", back=.true.))//"to "//to(word + 1:)//", "// &
+        to_string(last - first + 1)//" positions"
+    end associate
+    line = failure_text(all)
+
+  contains
+
+    pure function tail_of(place) result(tail)
+      character(len=*), intent(in) :: place
+      character(len=:), allocatable :: tail
+
+      tail = place(word + 1:)
+    end function tail_of
+
+  end function text_of_alike
+
   !> Warnings, those of meaningless results first, then failed rows, for standard error. Each line
   !! begins with the deck's path.
   pure function findings_messages(findings, path, has_log) result(text)
@@ -65,7 +141,7 @@ contains
     character(len=:), allocatable :: text
 
     type(string_t), allocatable :: severe(:), others(:)
-    integer :: i
+    integer :: i, lines, shown
     character(len=:), allocatable :: listed
     logical :: logged
 
@@ -86,14 +162,18 @@ contains
       text = text//path//": "//to_string(size(others) - most_shown)// &
         " more warnings"//listed//line_feed
     end if
-    do i = 1, min(findings%kept, most_shown)
-      text = text//path//": error: "//failure_text(findings%failed(i))//line_feed
+    shown = 0
+    do lines = 1, most_shown
+      if (shown == findings%kept) exit
+      i = last_alike(findings, shown + 1)
+      text = text//path//": error: "//text_of_alike(findings, shown + 1, i)//line_feed
+      shown = i
     end do
-    if (findings%failures > most_shown) then
+    if (findings%failures > shown) then
       if (logged .and. untold_failures(findings) > 0) listed = "; run.log lists the first "// &
         to_string(findings%kept)//", the tables mark all"
-      text = text//path//": error: "//to_string(findings%failures - most_shown)// &
-        " more failures"//listed//line_feed
+      text = text//path//": error: "//to_string(findings%failures - shown)//" more failures"// &
+        listed//line_feed
     end if
   end function findings_messages
 
@@ -122,8 +202,11 @@ contains
     end do
     if (findings%failures > 0) call append_text(buffer, "failures: "// &
       to_string(findings%failures)//line_feed)
-    do i = 1, findings%kept
-      call append_text(buffer, failure_text(findings%failed(i))//line_feed)
+    i = 1
+    do while (i <= findings%kept)
+      k = last_alike(findings, i)
+      call append_text(buffer, text_of_alike(findings, i, k)//line_feed)
+      i = k + 1
     end do
     if (untold_failures(findings) > 0) call append_text(buffer, "… and "// &
       to_string(untold_failures(findings))//" more: they are marked in the tables"//line_feed)
