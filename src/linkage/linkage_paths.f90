@@ -148,6 +148,7 @@ contains
     type(error_t), allocatable, intent(inout) :: error
 
     type(pose_t) :: pose
+    logical :: is_given(size(linkage%is_ground))
     real(wp) :: origin(2), correction, farthest
     integer :: i
 
@@ -157,9 +158,11 @@ contains
     if (allocated(error)) return
     span = linkage_span(linkage, pose)
     farthest = 0.0_wp
+    is_given = linkage%drawing%is_drawn .and. .not. linkage%is_ground
+    if (allocated(linkage%drawing%follows)) is_given = is_given .and. .not. linkage%drawing%follows
     do i = 1, size(linkage%is_ground)
-      if (linkage%drawing%is_drawn(i) .and. .not. linkage%is_ground(i)) farthest = max(farthest, &
-        norm2(pose%pin(:, i) + origin - linkage%drawing%pin(:, i)))
+      if (is_given(i)) farthest = max(farthest, norm2(pose%pin(:, i) + origin - &
+        linkage%drawing%pin(:, i)))
     end do
     if (farthest > drawing_reach*span) then
       nearest = pose

@@ -137,6 +137,8 @@ module linkages
   type :: drawing_t
     logical, allocatable :: is_drawn(:) !! (pins)
     real(wp), allocatable :: pin(:, :)  !! (2, pins) in global axes [m]; zero where not drawn
+    logical, allocatable :: follows(:)  !! (pins) its place follows from those of others; not
+                                        !! allocated: none does
   end type drawing_t
 
   !> What bodies, sliders, turns and drives demand. A pin of a body demands two things:

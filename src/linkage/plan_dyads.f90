@@ -4,23 +4,21 @@ module plan_dyads
   use linkages, only: demands_angle, group_t, groups_driven_dyad, groups_dyad, groups_on_line, &
     groups_two_lines, linkage_t
   use plan_equations, only: drive_of_length, length_equation, line_equation, pin_equation
-  use plan_problems, only: plan_problem_t
   use plan_progress, only: append_group, carry_rest, known_pin, line_is_known, progress_t
   use plan_sides, only: choose_side, side_t
   implicit none (type, external)
   private
 
-  public :: take_meeting
+  public :: take_meeting, take_crossing
 
 contains
 
   !> A pin with two loci: bodies on known pins, known lines. The first such pin in the order of the
   !! bodies, or of the sliders.
-  pure subroutine take_meeting(linkage, sides, done, problem, has_found)
+  pure subroutine take_meeting(linkage, sides, done, has_found)
     type(linkage_t), intent(inout) :: linkage !! to whose groups the first such is added
     type(side_t), intent(in) :: sides(:)      !! of its pins
     type(progress_t), intent(inout) :: done   !! what is placed
-    type(plan_problem_t), allocatable, intent(inout) :: problem !! why it has no side
     logical, intent(out) :: has_found         !! whether there is any
 
     integer, allocatable :: bodies(:), lines(:)
@@ -45,11 +43,31 @@ contains
     if (size(lines) >= 2) then
       call place_on_two_lines(linkage, best, lines, done)
     else if (size(lines) == 1) then
-      call place_on_line(linkage, sides, best, bodies(1), lines(1), done, problem)
+      call place_on_line(linkage, sides, best, bodies(1), lines(1), done)
     else
-      call place_dyad(linkage, sides, best, bodies(:2), done, problem)
+      call place_dyad(linkage, sides, best, bodies(:2), done)
     end if
   end subroutine take_meeting
+
+  !> The first pin on two known lines.
+  pure subroutine take_crossing(linkage, done, has_found)
+    type(linkage_t), intent(inout) :: linkage !! to whose groups it is added
+    type(progress_t), intent(inout) :: done   !! what is placed
+    logical, intent(out) :: has_found         !! whether there is any
+
+    integer, allocatable :: bodies(:), lines(:)
+    integer :: p
+
+    has_found = .false.
+    do p = 1, size(done%pin)
+      if (done%pin(p)) cycle
+      call find_loci(linkage, done, p, bodies, lines)
+      has_found = size(lines) >= 2
+      if (.not. has_found) cycle
+      call place_on_two_lines(linkage, p, lines, done)
+      return
+    end do
+  end subroutine take_crossing
 
   !> The place of a body in the order of the deck, rams behind all others.
   pure function deck_order(linkage, body)
@@ -111,12 +129,11 @@ contains
   end subroutine place_on_two_lines
 
   !> RRP: a body on a known pin, with another one of its pins on a known line.
-  pure subroutine place_on_line(linkage, sides, pin, body, line, done, problem)
+  pure subroutine place_on_line(linkage, sides, pin, body, line, done)
     type(linkage_t), intent(inout) :: linkage
     type(side_t), intent(in) :: sides(:)
     integer, intent(in) :: pin, body, line
     type(progress_t), intent(inout) :: done
-    type(plan_problem_t), allocatable, intent(inout) :: problem
 
     type(group_t) :: group
 
@@ -133,21 +150,19 @@ contains
     group%equations(1) = length_equation(linkage, body, pin)
     group%equations(2) = pin_equation(linkage, demands_angle, body, pin)
     group%equations(3) = line_equation(line)
-    call choose_side(linkage, sides, group, problem)
-    if (allocated(problem)) return
+    call choose_side(linkage, sides, group)
     done%slider(line) = .true.
     call settle(linkage, group, done)
     call carry_rest(linkage, body, [pin], done)
   end subroutine place_on_line
 
   !> RRR: two bodies on known pins that meet.
-  pure subroutine place_dyad(linkage, sides, pin, bodies, done, problem)
+  pure subroutine place_dyad(linkage, sides, pin, bodies, done)
     type(linkage_t), intent(inout) :: linkage
     type(side_t), intent(in) :: sides(:)
     integer, intent(in) :: pin
     integer, intent(in) :: bodies(2)
     type(progress_t), intent(inout) :: done
-    type(plan_problem_t), allocatable, intent(inout) :: problem
 
     type(group_t) :: group
     integer :: k
@@ -161,8 +176,7 @@ contains
       group%body = group%body([2, 1])
       group%base = group%base([2, 1])
     end if
-    call choose_side(linkage, sides, group, problem)
-    if (allocated(problem)) return
+    call choose_side(linkage, sides, group)
     call rebase(linkage, group%body(1), group%base(1), pin)
     if (any([(drive_of_length(linkage, bodies(k)) > 0, k=1, 2)])) then
       call rebase(linkage, group%body(2), group%base(2), pin)

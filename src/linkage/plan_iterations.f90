@@ -3,6 +3,7 @@
 !! pins nothing holds.
 module plan_iterations
   use body_axes, only: other_pin, rebase
+  use drawn_places, only: needed_places
   use group_equations, only: unknowns_of
   use linkages, only: demands_angle, demands_drive, demands_length, demands_line, demands_turn, &
     drives_angle, drives_length, drives_nothing, drives_slider, equation_t, group_t, &
@@ -55,8 +56,8 @@ contains
     group%bodies = bodies(pack(part, part > np) - np)
     group%loaded = group%bodies
     if (.not. all(linkage%drawing%is_drawn(group%pins))) then
-      problem = new_problem(problem_not_drawn, pack(group%pins, .not. &
-        linkage%drawing%is_drawn(group%pins)), group%bodies)
+      problem = new_problem(problem_not_drawn, needed_places(linkage, pack(group%pins, .not. &
+        linkage%drawing%is_drawn(group%pins))), group%bodies)
       return
     end if
     allocate (group%equations(unknowns_of(group)))

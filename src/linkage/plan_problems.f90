@@ -8,15 +8,17 @@ module plan_problems
   public :: plan_problem_t, new_problem, check_plain_faults
   public :: problem_too_free, problem_braced, problem_coupler_driven, &
     problem_no_side, problem_other_bases, problem_drive_idle, problem_not_drawn, &
-    problem_side_idle
+    problem_side_idle, problem_sides_differ
 
   !> What may be wrong: pins that nothing holds; a link that joins two pins of another one; a driven
   !! link that turns about no ground pivot; a dyad with neither a side nor a drawing; a side that
   !! names other pins than those that carry the dyad, or is of the other form; a drive that moves
-  !! nothing; pins that only a drawing can place; a side of a pin that has one place only.
+  !! nothing; pins that only a drawing can place; a side of a pin that has one place only; sides
+  !! that no assembly has together.
   integer, parameter :: problem_too_free = 1, problem_braced = 2, &
     problem_coupler_driven = 3, problem_no_side = 4, problem_other_bases = 5, &
-    problem_drive_idle = 6, problem_not_drawn = 7, problem_side_idle = 8
+    problem_drive_idle = 6, problem_not_drawn = 7, problem_side_idle = 8, &
+    problem_sides_differ = 9
 
   !> Why there is no plan.
   type :: plan_problem_t
@@ -25,6 +27,7 @@ module plan_problems
     integer, allocatable :: pins(:)  !! that it is about
     integer, allocatable :: bodies(:) !! that it is about
     integer :: number = 0            !! of a drive, or of a side; 0: of none
+    integer :: other = 0             !! number of a further side; 0: of none
     logical :: on_line = .false.     !! the side is one on a line
   end type plan_problem_t
 

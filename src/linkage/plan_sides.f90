@@ -5,10 +5,12 @@ module plan_sides
     groups_on_line, groups_through_pin, linkage_t, turned
   use plan_problems, only: new_problem, plan_problem_t, problem_no_side, problem_other_bases, &
     problem_side_idle
+  use pose_types, only: pins_of_body
   implicit none (type, external)
   private
 
-  public :: side_t, choose_side, check_sides, drawn_line
+  public :: side_t, undecided_t, choose_side, card_about, find_undecided, problem_of_group, &
+    problem_of_card, find_line, has_two_places, is_on_line, drawn_line
 
   !> On which side a pin lies, of two ways to place it.
   type :: side_t
@@ -18,35 +20,80 @@ module plan_sides
     logical :: on_line = .false. !! forward or backward: without bases
   end type side_t
 
+  !> What cards leave to be found of an assembly.
+  type :: undecided_t
+    integer, allocatable :: groups(:)   !! numbers of those without a card
+    logical, allocatable :: is_open(:)  !! (groups) neither the drawing nor a rule gives the side
+    integer, allocatable :: cards(:)    !! numbers of those that choose the side of no group
+  end type undecided_t
+
 contains
 
-  !> The side of a group: that of a card of its form, else that of the drawing. A group whose body
-  !! passes through a pin keeps the side that it has if neither tells.
-  pure subroutine choose_side(linkage, sides, group, problem)
+  !> The side of a group: that of a card about it, else that of the drawing. A group with neither
+  !! keeps the side that it has.
+  pure subroutine choose_side(linkage, sides, group)
     type(linkage_t), intent(in) :: linkage  !! bodies, sliders, and the drawing
     type(side_t), intent(in) :: sides(:)    !! of its pins
     type(group_t), intent(inout) :: group   !! with its bases and its middle; its side is set
-    type(plan_problem_t), allocatable, intent(inout) :: problem !! why it has no side
 
     integer :: number
     logical :: is_known
 
-    number = findloc(sides%pin == group%middle .and. (sides%on_line .eqv. is_on_line(group)), &
-      .true., dim=1)
+    number = card_about(sides, group)
     if (number > 0) then
-      call take_side(sides(number), group, is_known)
-      if (.not. is_known) problem = problem_of_side(problem_other_bases, group, number)
-      return
-    end if
-    call take_drawn_side(linkage, group, is_known)
-    if (is_known .or. group%kind == groups_through_pin) return
-    number = findloc(sides%pin, group%middle, dim=1)
-    if (number > 0) then
-      problem = problem_of_side(problem_other_bases, group, number)
+      group%side = sides(number)%side
+      if (.not. is_on_line(group) .and. sides(number)%base(1) /= group%base(1)) group%side = &
+        -group%side
     else
-      problem = problem_of_side(problem_no_side, group, 0)
+      call take_drawn_side(linkage, group, is_known)
     end if
   end subroutine choose_side
+
+  !> The card that chooses the side of a group: about its middle, of its form, with its bases; 0:
+  !! none.
+  pure function card_about(sides, group) result(number)
+    type(side_t), intent(in) :: sides(:)
+    type(group_t), intent(in) :: group
+    integer :: number
+
+    number = 0
+    if (.not. has_two_places(group)) return
+    do number = size(sides), 1, -1
+      associate (side => sides(number))
+        if (side%pin /= group%middle .or. (side%on_line .neqv. is_on_line(group))) cycle
+        if (side%on_line .or. all(side%base == group%base) .or. all(side%base == &
+          group%base([2, 1]))) return
+      end associate
+    end do
+  end function card_about
+
+  !> The groups whose side no card chooses, and the cards that choose none.
+  pure function find_undecided(linkage, sides) result(undecided)
+    type(linkage_t), intent(in) :: linkage !! with all its groups, and the drawing
+    type(side_t), intent(in) :: sides(:)   !! of its pins
+    type(undecided_t) :: undecided
+
+    type(group_t) :: group
+    logical :: is_idle(size(sides)), is_known
+    integer :: g, i
+
+    is_idle = sides%pin > 0
+    allocate (undecided%groups(0), undecided%is_open(0))
+    do g = 1, size(linkage%groups)
+      group = linkage%groups(g)
+      if (.not. has_two_places(group)) cycle
+      i = card_about(sides, group)
+      if (i > 0) then
+        is_idle(i) = .false.
+        cycle
+      end if
+      call take_drawn_side(linkage, group, is_known)
+      undecided%groups = [undecided%groups, g]
+      undecided%is_open = [undecided%is_open, .not. is_known .and. group%kind /= &
+        groups_through_pin]
+    end do
+    undecided%cards = pack([(i, i=1, size(sides))], is_idle)
+  end function find_undecided
 
   !> Whether the side of a group is one along a line; else it is one of the way between its bases.
   pure function is_on_line(group) result(is)
@@ -55,22 +102,6 @@ contains
 
     is = any(group%kind == [groups_on_line, groups_through_pin])
   end function is_on_line
-
-  !> The side that a card gives a group, if it is about its bases.
-  pure subroutine take_side(side, group, is_known)
-    type(side_t), intent(in) :: side
-    type(group_t), intent(inout) :: group
-    logical, intent(out) :: is_known
-
-    is_known = side%on_line
-    if (side%on_line .or. all(side%base == group%base)) then
-      group%side = side%side
-      is_known = .true.
-    else if (all(side%base == group%base([2, 1]))) then
-      group%side = -side%side
-      is_known = .true.
-    end if
-  end subroutine take_side
 
   !> The side of a group in the drawing, if its pins are drawn.
   pure subroutine take_drawn_side(linkage, group, is_known)
@@ -95,6 +126,34 @@ contains
     end associate
   end subroutine take_drawn_side
 
+  !> The line along which a pin may lie forward or backward, and the pin from which that counts: of
+  !! a guide that by which a body reaches it, of a body that about which it turns.
+  pure subroutine find_line(linkage, pin, slider, base)
+    type(linkage_t), intent(in) :: linkage !! sliders and bodies
+    integer, intent(in) :: pin
+    integer, intent(out) :: slider, base   !! numbers; 0: there is none
+
+    integer, allocatable :: pins(:)
+    integer :: s, b
+
+    slider = 0
+    base = 0
+    do s = 1, size(linkage%sliders)
+      if (linkage%sliders(s)%pin /= pin) cycle
+      slider = s
+      if (linkage%sliders(s)%body > 0) then
+        base = linkage%bodies(linkage%sliders(s)%body)%first_pin
+        return
+      end if
+      do b = 1, size(linkage%bodies)
+        pins = pins_of_body(linkage%bodies(b))
+        if (.not. any(pins == pin)) cycle
+        base = pins(findloc(pins /= pin, .true., dim=1))
+        return
+      end do
+    end do
+  end subroutine find_line
+
   !> Direction of the line of a slider in the drawing.
   pure subroutine drawn_line(linkage, slider, direction, is_known)
     type(linkage_t), intent(in) :: linkage    !! sliders, bodies, and the drawing
@@ -115,6 +174,44 @@ contains
     end associate
   end subroutine drawn_line
 
+  !> A group without a side; perhaps a card about its middle is of the other form.
+  pure function problem_of_group(group, sides) result(problem)
+    type(group_t), intent(in) :: group
+    type(side_t), intent(in) :: sides(:) !! of its pins
+    type(plan_problem_t) :: problem
+
+    integer :: number
+
+    number = findloc(sides%pin, group%middle, dim=1)
+    problem = problem_of_side(merge(problem_other_bases, problem_no_side, number > 0), group, &
+      number)
+  end function problem_of_group
+
+  !> A card that chooses nothing: of another form than the group of its pin, about other bases, or
+  !! about a pin that has one place only. A group for iterations has the place near the drawing.
+  pure function problem_of_card(linkage, sides, number) result(problem)
+    type(linkage_t), intent(in) :: linkage !! with all its groups
+    type(side_t), intent(in) :: sides(:)   !! of its pins
+    integer, intent(in) :: number          !! of the card
+    type(plan_problem_t) :: problem
+
+    integer :: g, own
+
+    own = 0
+    do g = size(linkage%groups), 1, -1
+      associate (group => linkage%groups(g))
+        if (group%middle /= sides(number)%pin .or. .not. has_two_places(group)) cycle
+        if (own == 0 .or. (is_on_line(group) .eqv. sides(number)%on_line)) own = g
+      end associate
+    end do
+    if (own > 0) then
+      problem = problem_of_side(problem_other_bases, linkage%groups(own), number)
+    else
+      problem = new_problem(problem_side_idle, [sides(number)%pin], bodies_placed_with(linkage, &
+        sides(number)%pin), number)
+    end if
+  end function problem_of_card
+
   !> A problem with the side of a group, about its middle and its bases.
   pure function problem_of_side(kind, group, number) result(problem)
     integer, intent(in) :: kind
@@ -126,47 +223,7 @@ contains
     problem%on_line = is_on_line(group)
   end function problem_of_side
 
-  !> Every card must have chosen something.
-  pure subroutine check_sides(linkage, sides, problem)
-    type(linkage_t), intent(in) :: linkage  !! with all its groups
-    type(side_t), intent(in) :: sides(:)    !! of its pins
-    type(plan_problem_t), allocatable, intent(inout) :: problem !! with the first card that has not
-
-    integer :: i
-
-    do i = 1, size(sides)
-      if (sides(i)%pin > 0) call check_side(linkage, sides(i), i, problem)
-      if (allocated(problem)) return
-    end do
-  end subroutine check_sides
-
-  !> A card of another form than the group of its pin, or about a pin that has one place only. A
-  !! group for iterations has the place near the drawing.
-  pure subroutine check_side(linkage, side, number, problem)
-    type(linkage_t), intent(in) :: linkage
-    type(side_t), intent(in) :: side
-    integer, intent(in) :: number !! of the card
-    type(plan_problem_t), allocatable, intent(inout) :: problem
-
-    integer :: g
-
-    do g = 1, size(linkage%groups)
-      associate (group => linkage%groups(g))
-        if (group%middle /= side%pin .or. .not. has_two_places(group)) cycle
-        if (is_on_line(group) .eqv. side%on_line) return
-      end associate
-    end do
-    do g = 1, size(linkage%groups)
-      associate (group => linkage%groups(g))
-        if (group%middle /= side%pin .or. .not. has_two_places(group)) cycle
-        problem = problem_of_side(problem_other_bases, group, number)
-        return
-      end associate
-    end do
-    problem = new_problem(problem_side_idle, [side%pin], bodies_placed_with(linkage, side%pin), &
-      number)
-  end subroutine check_side
-
+  !> Whether a group has two places: one on each side.
   pure function has_two_places(group) result(has)
     type(group_t), intent(in) :: group
     logical :: has

@@ -5,7 +5,6 @@ module plan_sliding_bodies
   use kinds, only: wp
   use linkages, only: group_t, groups_cross_slide, groups_through_pin, linkage_t
   use plan_equations, only: line_equation, turn_equation
-  use plan_problems, only: plan_problem_t
   use plan_progress, only: append_group, carry_rest, known_pin, line_is_known, progress_t, turned_by
   use plan_sides, only: choose_side, side_t
   implicit none (type, external)
@@ -16,11 +15,10 @@ module plan_sliding_bodies
 contains
 
   !> RPR: a body on a known pin whose line passes through another known pin.
-  pure subroutine take_through_pin(linkage, sides, done, problem, has_found)
+  pure subroutine take_through_pin(linkage, sides, done, has_found)
     type(linkage_t), intent(inout) :: linkage !! to whose groups the first such is added
     type(side_t), intent(in) :: sides(:)      !! of its pins
     type(progress_t), intent(inout) :: done   !! what is placed
-    type(plan_problem_t), allocatable, intent(inout) :: problem !! why it has no side
     logical, intent(out) :: has_found         !! whether there is any
 
     type(group_t) :: group
@@ -48,7 +46,7 @@ contains
       group%equations(1) = line_equation(s)
       ! A block lies between the pins of its link, if nothing else is said.
       group%side = sign(1.0_wp, linkage%sliders(s)%direction(1))
-      call choose_side(linkage, sides, group, problem)
+      call choose_side(linkage, sides, group)
       done%slider(s) = .true.
       done%body(body) = .true.
       call append_group(linkage, group)

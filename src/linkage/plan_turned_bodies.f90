@@ -168,7 +168,8 @@ contains
     end do
   end subroutine take_turns
 
-  !> A body between two pins that are placed: its length is redundant.
+  !> A body between two pins that are placed: its length is redundant. A ram is one between its ends
+  !! only.
   pure subroutine take_spanned(linkage, done, has_found)
     type(linkage_t), intent(inout) :: linkage !! to whose groups the first such is added
     type(progress_t), intent(inout) :: done   !! what is placed
@@ -184,6 +185,8 @@ contains
       pins = pins_of_body(linkage%bodies(b))
       pins = pack(pins, done%pin(pins))
       if (size(pins) < 2) cycle
+      if (drive_of_length(linkage, b) > 0 .and. .not. all(done%pin([linkage%bodies(b)%first_pin, &
+        linkage%bodies(b)%last_pin]))) cycle
       call rebase(linkage, b, pins(1), pins(2))
       done%order = [done%order, b]
       group%kind = groups_spanned

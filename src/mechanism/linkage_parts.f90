@@ -1,10 +1,12 @@
 !> Model → linkage: pins, bodies, sliders, welds and drives by number, and the plan of its groups.
 module linkage_parts
   use assembly_plan, only: plan_linkage
+  use chosen_assemblies, only: choose_assembly
   use constants, only: degree
   use drive_cards, only: branch_backward, branch_left, branch_right, drive_ram, &
     drive_slider, moves_along
   use drawn_cranks, only: starting_cranks
+  use drawn_places, only: complete_drawing
   use errors, only: error_t
   use group_equations, only: direction_at
   use kinds, only: wp
@@ -17,7 +19,7 @@ module linkage_parts
   use models, only: is_four_bar, is_pin, model_t, rule_at_change_points
   use name_index, only: find_name, name_index_t, new_name_index
   use plan_problems, only: plan_problem_t
-  use plan_sides, only: side_t
+  use plan_sides, only: side_t, undecided_t
   use pose_types, only: pose_t
   use text, only: same_word, string_t
   use tokens, only: token_t
@@ -46,19 +48,25 @@ contains
     type(assembly_t), intent(out) :: assembly  !! with a plan, or a problem
 
     type(side_t), allocatable :: sides(:)
+    type(undecided_t) :: undecided
     integer, allocatable :: body_order(:), pin_order(:)
     integer :: i
 
     call list_pins(model, assembly%pins)
     assembly%link = [(i, i=1, size(model%links))]
     call take_parts(model, assembly, sides)
-    call plan_linkage(assembly%linkage, sides, assembly%problem, body_order, pin_order)
+    call plan_linkage(assembly%linkage, sides, assembly%problem, body_order, pin_order, &
+      undecided)
     if (allocated(assembly%problem)) return
     assembly%link = assembly%link(body_order)
     assembly%pins = assembly%pins(pin_order)
     call take_parts(model, assembly, sides)
-    call plan_linkage(assembly%linkage, sides, assembly%problem, body_order, pin_order)
+    call plan_linkage(assembly%linkage, sides, assembly%problem, body_order, pin_order, &
+      undecided)
     if (is_four_bar(model)) assembly%linkage%bodies(2)%heading = [1.0_wp, 0.0_wp]
+    if (allocated(assembly%problem)) return
+    call choose_assembly(assembly%linkage, sides, undecided, starting_cranks(model, &
+      assembly%linkage), assembly%problem)
     if (allocated(assembly%problem)) return
     call follow_path(assembly%linkage, starting_cranks(model, assembly%linkage), &
       rule_at_change_points(model), assembly%nearest, assembly%error)
@@ -172,36 +180,9 @@ contains
     call take_turns(model, pins, assembly%link, linkage)
     call take_drives(model, assembly%link, linkage)
     call take_sides(model, pins, sides)
-    call draw_crank(model, linkage)
+    if (size(model%drawn_pins) > 0) call complete_drawing(linkage, model%crank%value)
     assembly%linkage = linkage
   end subroutine take_parts
-
-  !> A drawing without the end of the crank shows the first position of CRANK.
-  pure subroutine draw_crank(model, linkage)
-    type(model_t), intent(in) :: model
-    type(linkage_t), intent(inout) :: linkage
-
-    real(wp) :: direction(2)
-    integer :: from, to
-
-    if (size(model%drawn_pins) == 0 .or. size(model%crank%value) == 0) return
-    associate (drive => linkage%drives(1))
-      if (drive%kind /= drives_angle .or. drive%against > 0) return
-      associate (body => linkage%bodies(drive%body))
-        from = body%first_pin
-        to = body%last_pin
-        if (size(body%further) > 0 .or. .not. any(linkage%is_ground([from, to]))) return
-        if (linkage%is_ground(to)) then
-          to = body%first_pin
-          from = body%last_pin
-        end if
-        if (linkage%drawing%is_drawn(to)) return
-        direction = direction_at(model%crank%value(1))
-        linkage%drawing%pin(:, to) = linkage%ground_position(:, from) + body%length*direction
-        linkage%drawing%is_drawn(to) = .true.
-      end associate
-    end associate
-  end subroutine draw_crank
 
   !> A body with the pins of its link: the first two of the card are its first and last.
   pure subroutine take_body(model, pins, number, is_ground, body)

@@ -126,33 +126,21 @@ contains
     is_drawn = .false.
   end subroutine find_drawn_pin
 
-  !> Where a pin or a point is in the drawing: at its card, or a point where its link is.
+  !> Where a pin or a POINT is in the drawing: the place of its card, or that which follows.
   pure subroutine find_drawn_place(model, name, position, is_drawn)
-    type(model_t), intent(in) :: model    !! whose points have their links
-    character(len=*), intent(in) :: name  !! of a pin or a point, in any case of letters
+    type(model_t), intent(in) :: model    !! as read
+    character(len=*), intent(in) :: name  !! of the pin or POINT, in any case of letters
     real(wp), intent(out) :: position(2)  !! in global axes; 0 if it is unknown [m]
     logical, intent(out) :: is_drawn      !! whether it is known
 
-    real(wp) :: end(2), axis(2)
-    logical :: has_end
     integer :: i
 
     call find_drawn_pin(model, name, position, is_drawn)
     if (is_drawn) return
-    do i = 1, size(model%points)
-      if (.not. same_word(model%points(i)%name%text, name) .or. model%points(i)%link == 0) cycle
-      associate (link => model%links(model%points(i)%link), place => model%points(i)%place)
-        if (size(link%pins) < 2) return
-        call find_drawn_pin(model, link%pins(1)%text, position, is_drawn)
-        call find_drawn_pin(model, link%pins(2)%text, end, has_end)
-        axis = end - position
-        is_drawn = is_drawn .and. has_end .and. norm2(axis) > 0.0_wp
-        if (.not. is_drawn) position = 0.0_wp
-        if (.not. is_drawn) return
-        axis = axis/norm2(axis)
-        position = position + [axis(1)*place(1) - axis(2)*place(2), axis(2)*place(1) + &
-          axis(1)*place(2)]
-      end associate
+    do i = 1, size(model%followed)
+      is_drawn = same_word(model%followed(i)%pin%text, name)
+      if (.not. is_drawn) cycle
+      position = model%followed(i)%position
       return
     end do
   end subroutine find_drawn_place
@@ -171,7 +159,7 @@ contains
     allocate (positions(2, size(link%pins)))
     is_drawn = .true.
     do i = 1, size(link%pins)
-      call find_drawn_pin(model, link%pins(i)%text, positions(:, i), has)
+      call find_drawn_place(model, link%pins(i)%text, positions(:, i), has)
       is_drawn = is_drawn .and. has
     end do
   end subroutine find_drawn_link

@@ -13,6 +13,7 @@ module model_reader
   use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
   use errors, only: error_of_writing
   use four_bar_branches, only: find_four_bar_branch
+  use followed_places, only: find_followed_places
   use friction_checks, only: check_frictions, read_frictions
   use joint_cards, only: read_guide, read_pin, read_slider, read_weld
   use joint_checks, only: check_joints
@@ -96,6 +97,7 @@ contains
     model%speed%word = [0]
     allocate (model%speed%words(0))
     model%time = empty_list()
+    allocate (model%followed(0))
     model%effects = 0
     call check_keywords(cards, diagnostics)
     call refuse_second_cards(cards, diagnostics)
@@ -128,6 +130,7 @@ contains
     call check_names(diagnostics, model)
     call check_bodies(diagnostics, model)
     call find_processes(cards, diagnostics, model)
+    call find_followed_places(model)
     call check_links(diagnostics, model)
     call check_joints(diagnostics, model)
     call check_drives(diagnostics, model)

@@ -57,6 +57,8 @@ module models
     type(section_t), allocatable :: sections(:)
     type(ground_t), allocatable :: grounds(:)
     type(drawn_pin_t), allocatable :: drawn_pins(:) !! PIN cards
+    type(drawn_pin_t), allocatable :: followed(:)   !! pins and POINTs without one, whose places
+                                                    !! follow
     type(link_t), allocatable :: links(:)
     type(weld_t), allocatable :: welds(:)
     type(weld_t), allocatable :: clamps(:)      !! CLAMP cards: links that turn with the ground

@@ -3,7 +3,7 @@ module joint_checks
   use diagnostics, only: add_error, diagnostics_t
   use joint_cards, only: slider_t, weld_t
   use kinds, only: wp
-  use link_shapes, only: find_drawn_pin
+  use link_shapes, only: find_drawn_place
   use models, only: is_end_of_spring, model_t
   use name_checks, only: look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
@@ -251,7 +251,7 @@ contains
     do i = 1, size(weld%link)
       associate (link => model%links(weld%link(i)))
         do k = 1, size(link%pins)
-          call find_drawn_pin(model, link%pins(k)%text, place, is_drawn)
+          call find_drawn_place(model, link%pins(k)%text, place, is_drawn)
           if (.not. is_drawn) call append_once(told, link%pins(k)%text)
         end do
       end associate

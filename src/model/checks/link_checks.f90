@@ -4,7 +4,7 @@ module link_checks
   use drive_cards, only: drive_ram
   use kinds, only: wp
   use link_cards, only: link_t, segment_count
-  use link_shapes, only: find_drawn_link, find_drawn_pin, find_link_shape, lay_out
+  use link_shapes, only: find_drawn_link, find_drawn_place, find_link_shape, lay_out
   use models, only: model_t
   use text, only: same_word, to_string
   use units, only: from_si
@@ -98,7 +98,7 @@ contains
     logical :: is_drawn(size(link%pins))
 
     do i = 1, size(link%pins)
-      call find_drawn_pin(model, link%pins(i)%text, place, is_drawn(i))
+      call find_drawn_place(model, link%pins(i)%text, place, is_drawn(i))
     end do
     lacking = count(.not. is_drawn)
     told = 0

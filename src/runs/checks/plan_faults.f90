@@ -5,7 +5,9 @@ module plan_faults
   use linkage_parts, only: assembly_t
   use models, only: model_t
   use plan_problems, only: problem_braced, problem_coupler_driven, problem_drive_idle, &
-    problem_no_side, problem_not_drawn, problem_other_bases, problem_side_idle, problem_too_free
+    problem_no_side, problem_not_drawn, problem_other_bases, problem_side_idle, &
+    problem_sides_differ, problem_too_free
+  use plan_sides, only: has_two_places, is_on_line
   use text, only: plural, same_word, to_string
   use tokens, only: token_t
   implicit none (type, external)
@@ -56,6 +58,8 @@ contains
         call report_side(model, assembly, diagnostics)
       case (problem_side_idle)
         call report_idle_side(model, assembly, diagnostics)
+      case (problem_sides_differ)
+        call report_contradiction(model, assembly, diagnostics)
       case (problem_not_drawn)
         place = token_of_pin(model, assembly, problem%pins(1))
         call add_error(diagnostics, place, "several links have to be placed together here, and "// &
@@ -74,7 +78,7 @@ contains
 
     associate (problem => assembly%problem)
       pin = "pin '"//assembly%pins(problem%pins(1))%text//"'"
-      card = card_of_side(assembly)
+      card = card_of_side(assembly, problem%pins, problem%on_line)
       if (problem%kind == problem_other_bases) then
         associate (branch => model%branches(problem%number))
           call add_error(diagnostics, branch%pin, pin//what_does_not_fit(branch%which, &
@@ -92,16 +96,15 @@ contains
   end subroutine report_side
 
   !> The BRANCH card that a dyad without one needs.
-  pure function card_of_side(assembly) result(card)
+  pure function card_of_side(assembly, pins, on_line) result(card)
     type(assembly_t), intent(in) :: assembly
+    integer, intent(in) :: pins(:)  !! its middle, then those that carry it
+    logical, intent(in) :: on_line  !! it has a place forward and one backward
     character(len=:), allocatable :: card
 
-    associate (problem => assembly%problem)
-      card = "BRANCH "//assembly%pins(problem%pins(1))%text//" forward|backward"
-      if (.not. problem%on_line) card = "BRANCH "//assembly%pins(problem%pins(1))%text// &
-        " left|right "//assembly%pins(problem%pins(2))%text//" "// &
-        assembly%pins(problem%pins(3))%text
-    end associate
+    card = "BRANCH "//assembly%pins(pins(1))%text//" forward|backward"
+    if (.not. on_line) card = "BRANCH "//assembly%pins(pins(1))%text//" left|right "// &
+      assembly%pins(pins(2))%text//" "//assembly%pins(pins(3))%text
   end function card_of_side
 
   !> Why a card is not about the dyad of its pin.
@@ -134,10 +137,55 @@ contains
           "its place, its PIN card does")
       else
         call add_error(diagnostics, model%branches(problem%number)%pin, pin// &
-          " has one place only: this BRANCH card has nothing to choose")
+          " has one place only: this BRANCH card has nothing to choose"//what_to_choose(assembly))
       end if
     end associate
   end subroutine report_idle_side
+
+  !> `; those that choose are of BRANCH B left|right A O4 and BRANCH C forward|backward`, for the
+  !! first pins with two places.
+  pure function what_to_choose(assembly) result(words)
+    type(assembly_t), intent(in) :: assembly
+    character(len=:), allocatable :: words
+
+    integer, parameter :: most = 3
+    integer :: g, told
+
+    words = ""
+    told = 0
+    do g = 1, size(assembly%linkage%groups)
+      associate (group => assembly%linkage%groups(g))
+        if (.not. has_two_places(group)) cycle
+        told = told + 1
+        if (told > most) exit
+        words = words//trim(merge("; expected", ", or      ", told == 1))//" "//card_of_side( &
+          assembly, [group%middle, group%base], is_on_line(group))
+      end associate
+    end do
+  end function what_to_choose
+
+  !> A card with whose side no assembly has those of the others.
+  pure subroutine report_contradiction(model, assembly, diagnostics)
+    type(model_t), intent(in) :: model
+    type(assembly_t), intent(in) :: assembly
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: side
+
+    associate (problem => assembly%problem, branch => model%branches(assembly%problem%number))
+      side = "'"//branch%pin%text//"' lies "//branch%word%text
+      if (.not. problem%on_line) side = "'"//branch%pin%text//"' lies to the "//branch%word%text// &
+        " of '"//branch%from%text//"' -> '"//branch%to%text//"'"
+      if (problem%other > 0) then
+        call add_error(diagnostics, branch%pin, "the BRANCH cards of pins '"// &
+          model%branches(problem%other)%pin%text//"' and '"//branch%pin%text// &
+          "' contradict each other: in no assembly of the first "//side, &
+          model%branches(problem%other)%pin, "the first is here")
+      else
+        call add_error(diagnostics, branch%pin, "in no assembly of the linkage "//side)
+      end if
+    end associate
+  end subroutine report_contradiction
 
   !> `nothing holds pins 'E', 'F'`
   pure function what_is_free(assembly) result(words)

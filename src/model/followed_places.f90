@@ -1,0 +1,77 @@
+!> Pins and POINTs without a PIN card whose places in the drawing follow from two others of their
+!! link.
+module followed_places
+  use joint_cards, only: drawn_pin_t
+  use kinds, only: wp
+  use link_checks, only: is_ram
+  use link_shapes, only: find_drawn_place, find_link_shape
+  use models, only: model_t
+  use tokens, only: token_t
+  implicit none (type, external)
+  private
+
+  public :: find_followed_places
+
+contains
+
+  !> Draws what follows from PIN and GROUND cards and the shapes of links, link after link until
+  !! nothing more does.
+  pure subroutine find_followed_places(model)
+    type(model_t), intent(inout) :: model !! links of its points are known; `followed` is set
+
+    integer :: i, before
+
+    if (allocated(model%followed)) deallocate (model%followed)
+    allocate (model%followed(0))
+    do
+      before = size(model%followed)
+      do i = 1, size(model%links)
+        call draw_link(model, i)
+      end do
+      if (size(model%followed) == before) return
+    end do
+  end subroutine find_followed_places
+
+  !> Draws the other pins and POINTs of a link of known shape that has two in the drawing; of a ram
+  !! these are its ends.
+  pure subroutine draw_link(model, number)
+    type(model_t), intent(inout) :: model
+    integer, intent(in) :: number !! of the link
+
+    type(token_t), allocatable :: names(:)
+    real(wp), allocatable :: shape(:, :), places(:, :), drawn(:, :)
+    logical, allocatable :: is_drawn(:)
+    real(wp) :: own(2), turn(2), arm(2)
+    integer :: i, first, second
+    logical :: is_known
+
+    call find_link_shape(model, model%links(number), shape, is_known)
+    if (.not. is_known) return
+    names = [model%links(number)%pins, pack(model%points%name, model%points%link == number)]
+    allocate (places(2, size(names)), drawn(2, size(names)), is_drawn(size(names)))
+    places(:, :size(shape, 2)) = shape
+    places(1, size(shape, 2) + 1:) = pack(model%points%place(1), model%points%link == number)
+    places(2, size(shape, 2) + 1:) = pack(model%points%place(2), model%points%link == number)
+    do i = 1, size(names)
+      call find_drawn_place(model, names(i)%text, drawn(:, i), is_drawn(i))
+    end do
+    first = findloc(is_drawn, .true., dim=1)
+    if (first == 0 .or. all(is_drawn)) return
+    second = first + findloc(is_drawn(first + 1:), .true., dim=1)
+    if (is_ram(model, model%links(number)) .and. .not. all(is_drawn(:2))) return
+    own = places(:, second) - places(:, first)
+    arm = drawn(:, second) - drawn(:, first)
+    if (.not. (norm2(own) > 0.0_wp .and. norm2(arm) > 0.0_wp)) return
+    own = own/norm2(own)
+    arm = arm/norm2(arm)
+    ! From the axes of the link to global ones.
+    turn = [arm(1)*own(1) + arm(2)*own(2), arm(2)*own(1) - arm(1)*own(2)]
+    do i = 1, size(names)
+      if (is_drawn(i)) cycle
+      arm = places(:, i) - places(:, first)
+      model%followed = [model%followed, drawn_pin_t(names(i), drawn(:, first) + [turn(1)*arm(1) - &
+        turn(2)*arm(2), turn(2)*arm(1) + turn(1)*arm(2)])]
+    end do
+  end subroutine draw_link
+
+end module followed_places
