@@ -172,7 +172,7 @@ contains
   !!
   !! Errors: as for `read_measure`; a range of the wrong form, too many values in a range, a value
   !! given twice.
-  pure subroutine read_values(words, dimension, system, noun, diagnostics, list)
+  pure subroutine read_values(words, dimension, system, noun, diagnostics, list, to_all_digits)
     type(token_t), intent(in) :: words(:)             !! (words) the list, optionally with a unit as
                                                       !! last word
     integer, intent(in) :: dimension(4)               !! that the values must have
@@ -180,12 +180,17 @@ contains
     character(len=*), intent(in) :: noun              !! what the numbers are, for messages
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(value_list_t), intent(out) :: list           !! the values before the first wrong one
+    logical, intent(in), optional :: to_all_digits    !! values that differ by rounding only are
+                                                      !! two: a cycle may end where it began;
+                                                      !! absent: they are one, given twice
 
     type(unit_t) :: bare
     type(written_t) :: first, last, step
     integer :: i, count, filled
-    logical :: fine
+    logical :: fine, exactly
 
+    exactly = .false.
+    if (present(to_all_digits)) exactly = to_all_digits
     list = empty_list()
     list%words = words
     filled = 0
@@ -216,9 +221,10 @@ contains
     list%value = list%value(:filled)
     list%word = list%word(:filled)
     list%written = list%written(:filled)
+    if (.not. fine) return
     ! Angles and speeds are zero or of the order of one; a pure number may have any magnitude.
-    if (fine) call refuse_duplicates(noun, &
-      merge(0.0_wp, 1.0_wp, all(dimension == dimension_none)), diagnostics, list)
+    call refuse_duplicates(noun, merge(0.0_wp, 1.0_wp, all(dimension == dimension_none)), &
+      exactly, diagnostics, list)
   end subroutine read_values
 
   !> The unit at the end of a list, or else the first after a number; none if there is none, or if
@@ -472,18 +478,20 @@ contains
 
   !> Errors: a value is given twice, which is a mistake or would put the same row into the table
   !! twice.
-  pure subroutine refuse_duplicates(noun, least, diagnostics, list)
+  pure subroutine refuse_duplicates(noun, least, to_all_digits, diagnostics, list)
     character(len=*), intent(in) :: noun
     real(wp), intent(in) :: least !! values are compared relative to themselves, or to this if they
                                   !! are smaller
+    logical, intent(in) :: to_all_digits !! they are compared to the last digit instead
     type(diagnostics_t), intent(inout) :: diagnostics
     type(value_list_t), intent(in) :: list
 
-    real(wp), parameter :: same = 1.0e-12_wp
+    real(wp) :: same
     integer, allocatable :: order(:)
     integer :: i, earlier, later
     logical :: told(size(list%words))
 
+    same = merge(0.0_wp, 1.0e-12_wp, to_all_digits)
     order = ascending_order(list%value)
     told = .false.
     do i = 2, size(order)

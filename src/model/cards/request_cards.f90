@@ -56,7 +56,7 @@ contains
 
   !> Reads `CRANK` angles [deg], or lengths [m]: numbers and ranges `a to b step s`, with or
   !! without one unit at the end for all. Errors: words or keys that do not fit the card, unreadable
-  !! values or ranges, a value given twice.
+  !! values or ranges, a value given twice, to the last digit.
   pure subroutine read_crank(card, system, diagnostics, crank, by_length)
     type(card_t), intent(in) :: card                  !! the CRANK card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
@@ -71,9 +71,11 @@ contains
     if (present(by_length)) lengths = by_length
     call check_form(card, diagnostics, fine)
     if (lengths) then
-      call read_values(card%words, dimension_length, system, "position", diagnostics, crank)
+      call read_values(card%words, dimension_length, system, "position", diagnostics, crank, &
+        to_all_digits=.true.)
     else
-      call read_values(card%words, dimension_angle, system, "crank angle", diagnostics, crank)
+      call read_values(card%words, dimension_angle, system, "crank angle", diagnostics, crank, &
+        to_all_digits=.true.)
     end if
   end subroutine read_crank
 
