@@ -204,6 +204,7 @@ contains
     do i = 1, size(done%drive)
       if (done%drive(i)) cycle
       problem = new_problem(problem_drive_idle, number=i)
+      problem%mobility = count(done%drive)
       return
     end do
     do i = 1, size(done%turn)

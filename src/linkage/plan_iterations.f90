@@ -49,6 +49,7 @@ contains
     has_found = size(part) > 0
     if (.not. has_found) then
       problem = what_is_free(linkage, matching, pins, bodies)
+      problem%redundant = redundant_bodies(linkage, pack(equations, matching%unknown_of == 0))
       return
     end if
     group%kind = groups_by_newton
@@ -94,6 +95,37 @@ contains
     problem%mobility = count(matching%equation_of == 0) + count(linkage%drives%kind /= &
       drives_nothing)
   end function what_is_free
+
+  !> Bodies of the redundancies so far, and of equations that nothing is left for.
+  pure function redundant_bodies(linkage, idle) result(bodies)
+    type(linkage_t), intent(in) :: linkage
+    type(equation_t), intent(in) :: idle(:)
+    integer, allocatable :: bodies(:)
+
+    integer :: i, body
+
+    allocate (bodies(0))
+    do i = 1, size(linkage%redundancies) + size(idle)
+      if (i <= size(linkage%redundancies)) then
+        body = body_of(linkage, linkage%redundancies(i))
+      else
+        body = body_of(linkage, idle(i - size(linkage%redundancies)))
+      end if
+      if (.not. any(bodies == body)) bodies = [bodies, body]
+    end do
+  end function redundant_bodies
+
+  !> The body that an equation is about; 0 if it is about a pin on a fixed line.
+  pure function body_of(linkage, equation) result(body)
+    type(linkage_t), intent(in) :: linkage
+    type(equation_t), intent(in) :: equation
+    integer :: body
+
+    body = equation%body
+    if (equation%kind == demands_turn) body = linkage%turns(equation%number)%body
+    if (equation%kind == demands_line) body = linkage%sliders(equation%number)%body
+    if (equation%kind == demands_drive) body = linkage%drives(equation%number)%body
+  end function body_of
 
   !> The equations matched with the unknowns of a part.
   pure subroutine take_equations(equations, matching, part, np, group)

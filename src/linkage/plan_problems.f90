@@ -28,6 +28,8 @@ module plan_problems
     integer, allocatable :: bodies(:) !! that it is about
     integer :: number = 0            !! of a drive, or of a side; 0: of none
     integer :: other = 0             !! number of a further side; 0: of none
+    integer, allocatable :: redundant(:) !! bodies of equations that elsewhere are more than needed;
+                                     !! 0: of guides alone
     logical :: on_line = .false.     !! the side is one on a line
   end type plan_problem_t
 
@@ -105,6 +107,7 @@ contains
     problem%kind = kind
     problem%pins = [integer ::]
     problem%bodies = [integer ::]
+    problem%redundant = [integer ::]
     if (present(pins)) problem%pins = pins
     if (present(bodies)) problem%bodies = bodies
     if (present(number)) problem%number = number

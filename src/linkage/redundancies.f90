@@ -9,7 +9,7 @@ module redundancies
   implicit none (type, external)
   private
 
-  public :: largest_misfit, refuse_misfit, body_of_redundancy
+  public :: largest_misfit, misfit_of_redundancy, refuse_misfit, body_of_redundancy
 
   !> A linkage fits where all equations are fulfilled to this share of its size.
   real(wp), parameter :: most_misfit = 1.0e-9_wp
@@ -31,16 +31,28 @@ contains
     misfit = 0.0_wp
     number = 0
     do i = 1, size(linkage%redundancies)
-      associate (equation => linkage%redundancies(i))
-        this = misfit_of(linkage, equation, pose, origin, crank)
-        if (equation%kind == demands_turn) this = this*linkage%bodies(linkage%turns( &
-          equation%number)%body)%length
-      end associate
+      this = misfit_of_redundancy(linkage, i, pose, origin, crank)
       if (number > 0 .and. abs(this) <= abs(misfit)) cycle
       misfit = this
       number = i
     end do
   end subroutine largest_misfit
+
+  !> The misfit of a redundant equation; an angle counts with the length of the body [m].
+  pure function misfit_of_redundancy(linkage, number, pose, origin, crank) result(misfit)
+    type(linkage_t), intent(in) :: linkage !! with redundancies
+    integer, intent(in) :: number          !! of the redundancy, from 1
+    type(pose_t), intent(in) :: pose       !! of all groups
+    real(wp), intent(in) :: origin(2)      !! from which the pins of the pose are counted [m]
+    real(wp), intent(in) :: crank          !! coordinate of the first drive [deg] or [m]
+    real(wp) :: misfit
+
+    associate (equation => linkage%redundancies(number))
+      misfit = misfit_of(linkage, equation, pose, origin, crank)
+      if (equation%kind == demands_turn) misfit = misfit*linkage%bodies(linkage%turns( &
+        equation%number)%body)%length
+    end associate
+  end function misfit_of_redundancy
 
   !> An error where a linkage does not fit.
   pure subroutine refuse_misfit(linkage, pose, origin, crank, error)

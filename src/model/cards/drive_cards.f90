@@ -149,7 +149,8 @@ contains
     if (drive%kind == kind_of_drive(first) .and. same_word(drive%subject%text, &
       first%words(1)%text)) return
     call add_error(diagnostics, drive%subject, "the linkage is driven already; a further DRIVE "// &
-      "needs 'at=' or 'ratio='", first%words(1), "first driven here")
+      "needs a freedom of its own (a linkage of mobility 1 takes one) and 'at=' or 'ratio='", &
+      first%words(1), "first driven here")
   end subroutine read_drive
 
   !> Reads the keys of the first DRIVE: `law=` and `change_points=`. Errors: keys of further ones.

@@ -12,7 +12,7 @@ module name_checks
   implicit none (type, external)
   private
 
-  public :: check_names, look_up, link_ends, pin_names
+  public :: check_names, look_up, link_ends, pin_names, looks_misspelt
 
   !> More than the number of report kinds: limits the comparisons in a deck of very many cards.
   integer, parameter :: most_reports = 100
@@ -225,6 +225,17 @@ contains
         model%grounds(i)%pin%text//"'")
     end do
   end subroutine check_pins
+
+  !> Whether a pin that no card but LINK names is much like another one.
+  pure function looks_misspelt(model, pin) result(looks)
+    type(model_t), intent(in) :: model  !! as read
+    character(len=*), intent(in) :: pin
+    logical :: looks
+
+    looks = find_name(new_name_index(names_on_other_cards(model)), pin) == 0
+    if (looks) looks = len(suggestion(pin, other_names(new_name_index(token_texts(link_ends( &
+      model%links))), new_name_index(token_texts(model%grounds%pin)), pin, .true.))) > 0
+  end function looks_misspelt
 
   !> The pins of all links, one link after the other.
   pure function link_ends(links) result(pins)

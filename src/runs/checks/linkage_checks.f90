@@ -1,16 +1,19 @@
 !> Checks of linkages that are no four-bars and have a plan: whether they assemble near the drawing,
 !! fit, and reach the positions of the deck.
 module linkage_checks
+  use assembly_faults, only: report_assembly
   use block_checks, only: check_blocks
   use cut_ways, only: ways_under
-  use deck_lengths, only: crank_text, in_deck, length_text
+  use deck_lengths, only: crank_text
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use division_checks, only: check_coupled_drives, check_shared_forces
-  use errors, only: error_of_dead_point, error_of_reach, error_t
+  use errors, only: error_of_reach, error_t
   use kinds, only: wp
   use linkage_parts, only: assembly_t
-  use linkages, only: groups_dyad, is_dyad_linkage, linkage_t, reference_point
+  use linkages, only: demands_angle, demands_length, equation_t, groups_dyad, is_dyad_linkage, &
+    linkage_t, reference_point
   use mechanisms, only: mechanism_t, pins_of_body
+  use misfit_words, only: amount_text, misfit_text, name_redundancy
   use models, only: drives_length, effects_axial, model_t, needs_frequencies, needs_response, &
     report_number, solver_band, solver_dense
   use plan_words, only: group_names
@@ -18,8 +21,9 @@ module linkage_checks
   use poses, only: place_parts
   use reach_checks, only: check_reach
   use ram_checks, only: check_rams
-  use redundancies, only: body_of_redundancy, largest_misfit
+  use redundancies, only: largest_misfit
   use response_linkage_checks, only: check_running
+  use superfluous_drives, only: find_superfluous_drive
   use text, only: lower_case, plural, to_string
   use tokens, only: token_t
   implicit none (type, external)
@@ -42,6 +46,7 @@ module linkage_checks
     real(wp) :: first = 0.0_wp        !! the misfit there [m]
     real(wp) :: at_first = 0.0_wp     !! coordinate of the first drive [deg] or [m]
     real(wp) :: largest = 0.0_wp      !! of all positions [m]
+    integer :: worst = 0              !! its redundancy
     real(wp) :: at_largest = 0.0_wp   !! its coordinate
     real(wp) :: span = 0.0_wp         !! of the linkage [m]
     integer :: fitting = 0            !! positions where all fit
@@ -153,39 +158,6 @@ contains
     end if
   end subroutine check_mesh
 
-  !> The drawing does not assemble: the nearest assembly as PIN cards, if there is one.
-  pure subroutine report_assembly(model, assembly, diagnostics)
-    type(model_t), intent(in) :: model
-    type(assembly_t), intent(in) :: assembly
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    character(len=:), allocatable :: cards
-    type(token_t) :: place
-    integer :: i
-
-    place = model%links(1)%name
-    if (size(model%drawn_pins) > 0) place = model%drawn_pins(1)%pin
-    if (assembly%error%kind == error_of_dead_point) then
-      call add_error(diagnostics, place, "this drawing shows a dead point, or nearly so, where "// &
-        "the drive cannot move the links; draw another position")
-      return
-    end if
-    if (.not. allocated(assembly%nearest)) then
-      call add_error(diagnostics, place, "the linkage does not assemble from this drawing: "// &
-        assembly%error%text)
-      return
-    end if
-    cards = ""
-    do i = 1, size(assembly%pins)
-      if (assembly%linkage%is_ground(i)) cycle
-      cards = cards//"; PIN "//assembly%pins(i)%text//" "//to_string(in_deck(model, &
-        assembly%nearest%pin(1, i)), 6)//" "//to_string(in_deck(model, assembly%nearest%pin(2, &
-        i)), 6)
-    end do
-    call add_error(diagnostics, place, "the linkage does not assemble near this drawing; the "// &
-      "nearest assembly is: "//cards(3:))
-  end subroutine report_assembly
-
   !> Redundant links must fit at every position.
   pure subroutine check_fit(model, mechanism, diagnostics)
     type(model_t), intent(in) :: model
@@ -194,28 +166,31 @@ contains
 
     type(misfit_t) :: found
     type(token_t) :: place
-    character(len=:), allocatable :: name
-    integer :: body
+    character(len=:), allocatable :: subject, amount
+    integer :: mobility, drive
 
     found = misfit_over(mechanism%linkage, model%crank%value)
     if (found%number == 0) return
-    body = body_of_redundancy(mechanism%linkage, found%number)
-    place = model%links(1)%name
-    name = "a slider"
-    if (body > 0) then
-      place = model%links(mechanism%links(body))%name
-      name = "'"//place%text//"'"
-    end if
-    if (abs(found%largest) > most_misfit*found%span .and. found%fitting == 0) then
-      call add_error(diagnostics, place, "links "//neighbours_of(mechanism, body)//name// &
-        " form a structure and cannot move"//while_driven(model), kind=error_of_reach)
-    else
-      call add_error(diagnostics, place, name//" does not fit: "//length_text(model, &
-        abs(found%first), 6)//" too "//trim(merge("short", "long ", found%first > 0.0_wp))// &
-        " at crank "//crank_text(model, found%at_first, 10)//"; largest misfit "// &
-        length_text(model, abs(found%largest), 6)//" at "//crank_text(model, found%at_largest, &
-        10), kind=error_of_reach)
-    end if
+    associate (equation => mechanism%linkage%redundancies(found%number))
+      call name_redundancy(model, mechanism, equation, place, subject)
+      amount = misfit_text(model, mechanism, equation, found%first)//" at crank "// &
+        crank_text(model, found%at_first, 10)
+      call find_superfluous_drive(mechanism%linkage, found%at_first, mobility, drive)
+      if (mobility > 0 .and. drive > 0) then
+        call add_error(diagnostics, model%drives(drive)%subject, "the linkage has mobility "// &
+          to_string(mobility)//" and "//plural(size(model%drives), "DRIVE")//", of which this "// &
+          "one leaves "//subject//" "//amount//"; remove this card, or another DRIVE", place, &
+          "what does not fit is here", kind=error_of_reach)
+      else if (abs(found%largest) > most_misfit*found%span .and. found%fitting == 0) then
+        call add_error(diagnostics, place, neighbours_of(mechanism, equation, subject)// &
+          " form a structure and cannot move"//while_driven(model), kind=error_of_reach)
+      else
+        call add_error(diagnostics, place, subject//" does not fit: "//amount// &
+          "; largest misfit "//amount_text(model, mechanism, mechanism%linkage%redundancies( &
+          found%worst), found%largest)//" at "//crank_text(model, found%at_largest, 10), &
+          kind=error_of_reach)
+      end if
+    end associate
   end subroutine check_fit
 
   !> The first misfit of a redundant link over the positions of a deck, and the largest.
@@ -242,6 +217,7 @@ contains
       end if
       if (abs(misfit) <= abs(found%largest)) cycle
       found%largest = misfit
+      found%worst = number
       found%at_largest = cranks(i)
     end do
   end function misfit_over
@@ -256,20 +232,23 @@ contains
       " give their positions"
   end function while_driven
 
-  !> `'a', 'b', `: the links that share a moving pin with one.
-  pure function neighbours_of(mechanism, body) result(words)
+  !> `links 'a', 'b', 'c'`: the links that share a moving pin with a redundant one, and this; or
+  !! what else is redundant, and the links.
+  pure function neighbours_of(mechanism, equation, subject) result(words)
     type(mechanism_t), intent(in) :: mechanism
-    integer, intent(in) :: body !! number; 0: none
+    type(equation_t), intent(in) :: equation !! the redundancy
+    character(len=*), intent(in) :: subject  !! its words
     character(len=:), allocatable :: words
 
     integer, allocatable :: pins(:)
     integer :: b, i
 
-    words = ""
-    if (body == 0) return
-    pins = pins_of_body(mechanism%linkage%bodies(body))
+    words = "with "//subject//" the links"
+    if (all(equation%kind /= [demands_length, demands_angle])) return
+    words = "links "
+    pins = pins_of_body(mechanism%linkage%bodies(equation%body))
     do b = 1, size(mechanism%names)
-      if (b == body) cycle
+      if (b == equation%body) cycle
       do i = 1, size(pins)
         if (mechanism%linkage%is_ground(pins(i))) cycle
         if (.not. any(pins_of_body(mechanism%linkage%bodies(b)) == pins(i))) cycle
@@ -277,6 +256,7 @@ contains
         exit
       end do
     end do
+    words = words//subject
   end function neighbours_of
 
 end module linkage_checks

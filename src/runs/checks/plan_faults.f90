@@ -1,13 +1,16 @@
 !> Why a linkage has no plan, in words, at the part of the deck that it is about.
 module plan_faults
+  use deck_lengths, only: length_text
   use diagnostics, only: add_error, diagnostics_t
   use drive_cards, only: branch_backward, branch_forward
+  use kinds, only: wp
   use linkage_parts, only: assembly_t
   use models, only: model_t
   use plan_problems, only: problem_braced, problem_coupler_driven, problem_drive_idle, &
     problem_no_side, problem_not_drawn, problem_other_bases, problem_side_idle, &
     problem_sides_differ, problem_too_free
   use plan_sides, only: has_two_places, is_on_line
+  use pose_types, only: place_of_pin, pins_of_body
   use text, only: plural, same_word, to_string
   use tokens, only: token_t
   implicit none (type, external)
@@ -24,36 +27,31 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics !! to which the error is added
 
     type(token_t) :: place
-    character(len=:), allocatable :: pins
 
     associate (problem => assembly%problem)
       place = model%links(1)%name
       if (size(problem%bodies) > 0) place = model%links(assembly%link(problem%bodies(1)))%name
-      pins = names_of_pins(assembly, problem%pins)
       select case (problem%kind)
       case (problem_too_free)
         if (size(problem%pins) > 0) place = token_of_pin(model, assembly, problem%pins(1))
-        call add_error(diagnostics, place, "the linkage has mobility "// &
-          to_string(problem%mobility)//" and "//plural(size(model%drives), "DRIVE")//": "// &
-          what_is_free(assembly)//" (add a DRIVE, or parts that hold it)")
-      case (problem_braced)
-        if (size(problem%bodies) == 1) then
-          call add_error(diagnostics, place, "link '"//place%text//"' joins the ground "// &
-            "pivots "//pins(index(pins, "'"):)//" and cannot move")
+        if (size(problem%redundant) > 0) then
+          call report_loose_and_rigid(model, assembly, place, diagnostics)
         else
-          call add_error(diagnostics, place, &
-            "mobility 0: '"//place%text//"' joins two pins of '"// &
-            model%links(assembly%link(problem%bodies(2)))%name%text//"'", &
-            model%links(assembly%link(problem%bodies(2)))%name, "it is here")
+          call add_error(diagnostics, place, "the linkage has mobility "// &
+            to_string(problem%mobility)//" and "//plural(size(model%drives), "DRIVE")//": "// &
+            what_is_free(assembly)//" (add a DRIVE, or parts that hold it)")
         end if
+      case (problem_braced)
+        call report_brace(model, assembly, place, diagnostics)
       case (problem_coupler_driven)
         call add_error(diagnostics, model%drives(problem%number)%subject, "'"// &
           model%drives(problem%number)%subject%text//"' turns about no ground pivot; drive it "// &
           "against a link: DRIVE "//model%drives(problem%number)%subject%text//" against link")
       case (problem_drive_idle)
-        call add_error(diagnostics, model%drives(problem%number)%subject, "this DRIVE has "// &
-          "nothing to move: the linkage has "//plural(size(model%drives), "DRIVE card")// &
-          ", and the others leave it no freedom")
+        call add_error(diagnostics, model%drives(problem%number)%subject, "the linkage has "// &
+          "mobility "//to_string(problem%mobility)//" and "//plural(size(model%drives), &
+          "DRIVE")//": the others leave this one nothing to move; remove this card, or another "// &
+          "DRIVE")
       case (problem_no_side, problem_other_bases)
         call report_side(model, assembly, diagnostics)
       case (problem_side_idle)
@@ -63,10 +61,89 @@ contains
       case (problem_not_drawn)
         place = token_of_pin(model, assembly, problem%pins(1))
         call add_error(diagnostics, place, "several links have to be placed together here, and "// &
-          "only a drawing tells how: PIN cards for "//pins//" are missing")
+          "only a drawing tells how: PIN cards for "//names_of_pins(assembly, problem%pins)// &
+          " are missing")
       end select
     end associate
   end subroutine report_problem
+
+  !> Some parts are held by nothing, while others are held more than once: counted together they
+  !! are of no use to anybody.
+  pure subroutine report_loose_and_rigid(model, assembly, place, diagnostics)
+    type(model_t), intent(in) :: model
+    type(assembly_t), intent(in) :: assembly
+    type(token_t), intent(in) :: place
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: links
+    type(token_t) :: other
+    integer :: i
+
+    links = ""
+    other = place
+    associate (redundant => assembly%problem%redundant)
+      do i = 1, size(redundant)
+        if (redundant(i) == 0) cycle
+        if (len(links) == 0) other = model%links(assembly%link(redundant(i)))%name
+        if (len(links) > 0) links = links//", "
+        links = links//"'"//model%links(assembly%link(redundant(i)))%name%text//"'"
+      end do
+    end associate
+    if (len(links) == 0) links = "a block on a GUIDE"
+    call add_error(diagnostics, place, what_is_free(assembly)//" (add a DRIVE, or parts that "// &
+      "hold it); other parts are held more than once, by "//links//": unless it fits at every "// &
+      "position, they form a structure and cannot move", other, "it is here")
+  end subroutine report_loose_and_rigid
+
+  !> A link between pins of one body: the ground, or another link.
+  pure subroutine report_brace(model, assembly, place, diagnostics)
+    type(model_t), intent(in) :: model
+    type(assembly_t), intent(in) :: assembly
+    type(token_t), intent(in) :: place !! the link
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: pins, remedy
+    real(wp) :: own, other
+    integer :: k
+
+    associate (problem => assembly%problem, linkage => assembly%linkage)
+      pins = names_of_pins(assembly, problem%pins)
+      own = norm2(place_of_pin(linkage%bodies(problem%bodies(1)), problem%pins(2)) - &
+        place_of_pin(linkage%bodies(problem%bodies(1)), problem%pins(1)))
+      if (size(problem%bodies) == 1) then
+        other = norm2(linkage%ground_position(:, problem%pins(2)) - linkage%ground_position(:, &
+          problem%pins(1)))
+        call add_error(diagnostics, place, "link '"//place%text//"' joins the ground pivots "// &
+          pins(index(pins, "'"):)//" and cannot move"//what_misfits(model, place, own - other)// &
+          "; expected no such link: it is a part of the ground")
+        return
+      end if
+      k = problem%bodies(2)
+      other = norm2(place_of_pin(linkage%bodies(k), problem%pins(2)) - &
+        place_of_pin(linkage%bodies(k), problem%pins(1)))
+      remedy = "one LINK with the pins of both"
+      if (size(pins_of_body(linkage%bodies(problem%bodies(1)))) == size(problem%pins)) &
+        remedy = "no '"//place%text//"' (a mass of it is a MASS of the other)"
+      call add_error(diagnostics, place, "'"//place%text//"' and '"// &
+        model%links(assembly%link(k))%name%text//"' are one body: both have "//pins// &
+        what_misfits(model, place, own - other)//"; expected "//remedy, &
+        model%links(assembly%link(k))%name, "the other one is here")
+    end associate
+  end subroutine report_brace
+
+  !> ` ('bar' is 3 mm too short for them)`; empty if it fits.
+  pure function what_misfits(model, link, excess) result(words)
+    type(model_t), intent(in) :: model
+    type(token_t), intent(in) :: link !! its name
+    real(wp), intent(in) :: excess !! of the length of the link [m]
+    character(len=:), allocatable :: words
+
+    real(wp), parameter :: none = 1.0e-9_wp
+
+    words = ""
+    if (abs(excess) > none) words = " ('"//link%text//"' is "//length_text(model, &
+      abs(excess), 6)//" too "//trim(merge("long ", "short", excess > 0.0_wp))//" for them)"
+  end function what_misfits
 
   !> A dyad without a side, or with a card that does not fit it.
   pure subroutine report_side(model, assembly, diagnostics)
