@@ -35,11 +35,18 @@ contains
     real(wp) :: drives(size(linkage%drives))
     integer :: i
 
+    if (allocated(pose%coefficients)) then
+      coefficients = pose%coefficients
+      if (.not. present(rates)) return
+      ! A path is one of the first drive, which all others follow.
+      coefficients%turn = rates(1)*coefficients%turn
+      coefficients%pin = rates(1)*coefficients%pin
+      coefficients%turn_slope = rates(1)**2*coefficients%turn_slope
+      coefficients%pin_slope = rates(1)**2*coefficients%pin_slope
+      return
+    end if
     if (present(rates)) then
       drives = rates
-    else if (allocated(pose%coefficients)) then
-      coefficients = pose%coefficients
-      return
     else
       drives = [(drive_rate(linkage, i), i=1, size(drives))]
     end if
@@ -53,7 +60,11 @@ contains
     real(wp), intent(in) :: rates(:)       !! (drives) [rad/s] or [m/s]
     type(kinematic_coefficients_t), intent(out) :: coefficients !! accelerations are 0, or of no use
 
-    call find_coefficients(linkage, pose, rates, .false., coefficients)
+    if (allocated(pose%coefficients)) then
+      coefficients = find_kinematic_coefficients(linkage, pose, rates)
+    else
+      call find_coefficients(linkage, pose, rates, .false., coefficients)
+    end if
   end subroutine find_velocities
 
   !> Group by group.

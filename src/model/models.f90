@@ -39,7 +39,7 @@ module models
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
     link_line_density, speed_in_table, speed_in_words, is_four_bar, is_pin, pivots, &
     is_end_of_spring, drives_length, balances, has_law, &
-    rule_at_change_points
+    rule_at_change_points, motion_goes_through
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -373,6 +373,19 @@ contains
     if (size(model%drives) == 0) return
     if (model%drives(1)%change_points > 0) rule = model%drives(1)%change_points
   end function rule_at_change_points
+
+  !> Whether the motion of REPORT motion goes through change points: as its card says, or else that
+  !! of the first DRIVE. Friction depends on forces that are not determined there.
+  pure function motion_goes_through(model) result(goes)
+    type(model_t), intent(in) :: model !! with that report
+    logical :: goes
+
+    associate (report => model%reports(report_number(model, "motion")))
+      goes = report%through
+      if (report%through_word%line == 0) goes = rule_at_change_points(model) == 1 .and. &
+        size(model%frictions) == 0
+    end associate
+  end function motion_goes_through
 
   !> Whether any report has a row for every crank angle; true without REPORT cards. A report that
   !! cannot be read does not count.

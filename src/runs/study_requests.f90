@@ -10,7 +10,7 @@ module study_requests
   use linkage_motion_study, only: linkage_motion_request_t
   use mechanisms, only: mechanism_t
   use models, only: effects_static, has_gauge_histories, has_law, inertia_lumped, model_t, &
-    needs_loads, needs_study, report_number, report_with, accuracy_of_study, solver_band, &
+    motion_goes_through, needs_loads, needs_study, report_number, report_with, accuracy_of_study, solver_band, &
     solver_dense
   use motion_study, only: motion_request_t
   use motor_cards, only: motor_t
@@ -104,7 +104,7 @@ contains
       request%end_time = asked%end_time
       request%instants = asked%instants%value
       request%with_pins = asked%with_pins
-      request%through = asked%through
+      request%through = motion_goes_through(model)
       request%with_details = asked%with_accelerations .or. asked%with_forces .or. asked%with_power
     end associate
     request%drive = drive_of(model)

@@ -16,7 +16,8 @@ module variant_runs
   use linkages, only: linkage_t
   use loci_study, only: follow_loci
   use mechanisms, only: mechanism_t, new_mechanism
-  use models, only: has_law, model_t, needs_positions, needs_study, report_number
+  use models, only: has_law, model_t, motion_goes_through, needs_positions, needs_study, &
+    report_number
   use motion_study, only: begin_motion, continue_motion, finish_motion, motion_request_t, &
     motion_under_way_t
   use position_study, only: find_all_positions
@@ -239,7 +240,7 @@ contains
     associate (mechanism => run%results%mechanism, motion => run%results%found%linkage_motion)
       request = linkage_motion_request_of(run%results%model)
       linkage = mechanism%linkage
-      call leave_path(linkage, request%start)
+      if (.not. motion_goes_through(run%results%model)) call leave_path(linkage, request%start)
       call begin_linkage_motion(request, linkage, mechanism%load_elements, under_way, motion, &
         mechanism%structure_t)
       do while (.not. under_way%is_over)

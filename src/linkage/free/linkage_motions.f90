@@ -7,6 +7,7 @@
 module linkage_motions
   use adaptive_integration, only: advance, close_integrator, integrator_t, open_integrator, &
     reopen_integrator, step_by
+  use bridges, only: place_on_path
   use constants, only: degree, two_pi
   use drives, only: drive_t, refuse_speed
   use errors, only: error_of_dead_point, error_t, set_error
@@ -16,7 +17,7 @@ module linkage_motions
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkage_paths, only: has_iterations, period_of
+  use linkage_paths, only: has_change_points, period_of
   use linkage_rates, only: all_inertia, find_rates_of_coordinates, find_state, free_drives, &
     inertia_share, moving_linkage_t, no_stop, place_by_drives, rate_of_drive, stop_at_end, &
     stop_change_point, stop_energy, stop_many_steps, stop_misfit, stop_no_inertia, stop_steps
@@ -131,7 +132,8 @@ contains
       f = size(system%free)
       call place_links(linkage, crank, pose, error)
       if (allocated(error)) return
-      if (any(abs(pose%sine) < dead_point_sine) .and. abs(speed) > 0.0_wp) then
+      if (any(abs(pose%sine) < dead_point_sine) .and. .not. allocated(pose%coefficients) .and. &
+        abs(speed) > 0.0_wp) then
         call set_error(error, error_of_dead_point, "dead point: at a limit position the first "// &
           "drive turns back and can have no speed; expected speed=0")
         return
@@ -140,7 +142,8 @@ contains
       system%period = period_of(linkage)
       system%pose = pose
       system%chart = new_chart(system%whole, pose, crank, f)
-      if (system%chart%independence < least_independence) then
+      system%by_drives = .not. is_near_dead_point(linkage, pose, f)
+      if (system%chart%independence < least_independence .and. .not. system%by_drives) then
         call set_error(error, error_of_dead_point, change_point_message)
         return
       end if
@@ -151,7 +154,6 @@ contains
       motion%position = [(drive_value(linkage%drives(system%free(k)), crank), k=1, f)]
       allocate (motion%state(2*f + 1), motion%passages(0))
       motion%state = 0.0_wp
-      system%by_drives = all(abs(determinants) > near_dead_point)
       rates = [(speed*drive_rate(linkage, system%free(k)), k=1, f)]
       if (system%by_drives) then
         call take_drives(motion, rates)
@@ -297,6 +299,30 @@ contains
     is = .not. motion%system%by_drives .and. motion%system%chart%independence < near_change_point
   end function is_near_change_point
 
+  !> Whether a drive may come to its limit soon: the determinant of a group is small, and on a path
+  !! the limit is nearer than the change points, which the drive passes.
+  pure function is_near_dead_point(linkage, pose, free) result(is)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: free !! number of free drives
+    logical :: is
+
+    real(wp) :: at, to_limit
+    integer :: last
+
+    is = any(abs(pose%sine) <= near_dead_point)
+    if (.not. is .or. free > 1 .or. .not. has_change_points(linkage)) return
+    associate (path => linkage%path)
+      last = size(path%crank)
+      at = place_on_path(path, pose%crank)
+      to_limit = min(at - path%crank(1), path%crank(last) - at)
+      ! Whole periods have no ends.
+      is = path%crank(last) - path%crank(1) < path%period .or. path%period <= 0.0_wp
+      if (is) is = to_limit < minval([abs(at - path%bridges%from), abs(at - path%bridges%to)]) &
+        .and. .not. allocated(pose%coefficients)
+    end associate
+  end function is_near_dead_point
+
   !> After a step in the coordinates of the drives: near a dead point the next one is on a chart.
   subroutine go_on_by_drives(motion)
     type(linkage_motion_t), intent(inout) :: motion
@@ -312,7 +338,7 @@ contains
       near = .false.
       if (.not. allocated(error)) then
         system%pose = pose
-        near = any(abs(pose%sine) <= near_dead_point)
+        near = is_near_dead_point(system%whole%linkage, pose, size(system%free))
       end if
       if (near) call find_state(system, motion%state, pose, per, now, found)
       call read_drives(motion)
@@ -366,13 +392,12 @@ contains
     end associate
   end subroutine go_on_from_chart
 
-  !> Whether drives may be the coordinates again: groups that iterations place have a path on the
-  !! branch of the start only.
+  !> Whether drives may be the coordinates again: a path is that of the branch of the start only.
   pure function has_way_back(motion) result(has)
     type(linkage_motion_t), intent(in) :: motion
     logical :: has
 
-    has = motion%passage_count == 0 .or. .not. has_iterations(motion%system%whole%linkage)
+    has = motion%passage_count == 0 .or. .not. allocated(motion%system%whole%linkage%path%crank)
   end function has_way_back
 
   !> Positions of the drives from the state, whose first coordinate is kept within half a turn.

@@ -205,6 +205,7 @@ contains
       if (.not. allocated(error)) call refuse_leaving_block(linkage, pose, error)
     end if
     if (allocated(error)) return
+    if (allocated(pose%coefficients)) return
     if (.not. all(abs(pose%sine) > dead_point_sine)) call set_error(error, error_of_dead_point, &
       "dead point")
   end subroutine place_by_drives

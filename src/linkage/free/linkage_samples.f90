@@ -13,6 +13,7 @@ module linkage_samples
     rate_of_drive
   use linkages, only: drives_angle
   use pose_types, only: pose_t
+  use poses, only: dead_point_sine
   use rigid_bodies, only: central_inertia, mass_centre
   use whole_systems, only: drive_acceleration
   implicit none (type, external)
@@ -154,6 +155,9 @@ contains
       details%pose%pin = pose%pin + spread(whole%origin, 2, size(pose%pin, 2))
       details%motion = motion
       if (.not. with_forces) return
+      ! At a change point itself they are not determined.
+      found = all(abs(pose%sine) > dead_point_sine)
+      if (.not. found) return
       call new_free_equations(whole, system%rigid, pose, instant%per, 0.0_wp, equations)
       found = abs(equations%factor%determinant) > 0.0_wp
       if (.not. found) return

@@ -15,7 +15,7 @@ module linkage_checks
   use mechanisms, only: mechanism_t, pins_of_body
   use misfit_words, only: amount_text, misfit_text, name_redundancy
   use models, only: drives_length, effects_axial, model_t, needs_frequencies, needs_response, &
-    report_number, solver_band, solver_dense
+    solver_band, solver_dense
   use plan_words, only: group_names
   use pose_types, only: pose_t
   use poses, only: place_parts
@@ -62,7 +62,7 @@ contains
     type(mechanism_t), intent(in) :: mechanism        !! of the model
     type(diagnostics_t), intent(inout) :: diagnostics !! to which errors and warnings are added
 
-    integer :: report, leaving
+    integer :: leaving
 
     if (allocated(assembly%error)) then
       call report_assembly(model, assembly, diagnostics)
@@ -77,12 +77,6 @@ contains
     if (drives_length(model) .and. model%motor%keyword%line > 0) call add_error(diagnostics, &
       model%motor%keyword, "a MOTOR turns a link, and the first DRIVE moves a slider or a ram; "// &
       "a FORCE on its pin, or a DRIVE of a link, may serve")
-    report = report_number(model, "motion")
-    if (report > 0) then
-      if (model%reports(report)%through) call add_error(diagnostics, &
-        model%reports(report)%through_word, "only a four-bar, of three LINKs and no SLIDER, is "// &
-        "followed straight through change points; expected change_points=stop")
-    end if
     call check_rams(model, mechanism, diagnostics)
     if (allocated(mechanism%elastic)) call check_straight_guides(model, mechanism, diagnostics)
     if (needs_frequencies(model) .and. model%effects == effects_axial) call &
