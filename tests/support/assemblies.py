@@ -31,7 +31,7 @@ getcontext().prec = 50
 PI = D("3.14159265358979323846264338327950288419716939937510582097494459")
 DEGREE = PI / 180
 # Largest differences: [ordinary, near a change point], places by the size, rates by size*(rate)**n; and by how much a misfit counts.
-TOLERANCE = {"place": (1e-11, 1e-10), "velocity": (1e-9, 1e-9), "acceleration": (1e-7, 1e-7)}
+TOLERANCE = {"place": (1e-13, 1e-10), "velocity": (1e-11, 1e-9), "acceleration": (1e-9, 1e-7)}
 OF_MISFIT = {"place": 1e3, "velocity": 1e5, "acceleration": 1e7}
 NEAR = 5.0            # a position is near a change point [deg]
 FITS, TOLD = 1.5e-10, 9e-9  # misfits below have to be accepted, those above have to be told, as shares of the size
@@ -355,11 +355,11 @@ class Linkage:
                     step = max(step, abs(reduced[k][-1]))
             if step > 1.0 or step != step:
                 return None
-            if step < 1e-13:
+            if step < 1e-9:
                 break
-        return x if step < 1e-9 else None
+        return x if step < 1e-8 else None
 
-    def march(self, sense, goal, most_step=0.05):
+    def march(self, sense, goal, most_step=0.08):
         """Stations (x, tangent by c, pivot) from the start until c is beyond the goal, or turns back: then the place where."""
         x = [float(y) for pin in self.pins for y in self.start[pin]] + [float(self.c0)*self.unit()]
         t, pivot = self.tangent(x)
@@ -412,8 +412,12 @@ class Linkage:
 
     def follow(self, lowest, highest):
         """The curve over a range of c; ends where it turns back."""
-        up, self.to = self.march(1, highest + 6*float(self.step_of_grid()))
-        down, self.fr = self.march(-1, lowest - 6*float(self.step_of_grid()))
+        if (lowest, highest) == getattr(self, "followed", None):
+            return
+        self.followed = lowest, highest
+        beyond = 2*SIDES*float(self.step_of_grid())
+        up, self.to = self.march(1, highest + beyond)
+        down, self.fr = self.march(-1, lowest - beyond)
         stations = [(x, [-y for y in t], p) for x, t, p in down[:0:-1]] + up
         self.track = [s for s in stations if s[2] > 2e-3 and abs(s[1][-1]) > 1e-6]
         self.track_c = [s[0][-1] for s in self.track]
@@ -1343,6 +1347,8 @@ def check_rows(case, tables, place, miss, out):
         near = near if len(near) < 40 else dice.sample(near, 40)
         chosen = sorted(set(near) | set(dice.sample(chosen, 40)))
     rate = case.speed
+    lows, highs = ([row["value"] for row in tables["linkage"].rows if row.get("quantity") == x] for x in ("range_from", "range_to"))
+    ranges = list(zip(lows, highs))
     for c in chosen:
         crank = case.crank(c)
         # The program counts whole turns of the drawing in its own way.
@@ -1351,8 +1357,9 @@ def check_rows(case, tables, place, miss, out):
         if not linkage.is_inside(local):
             beyond = linkage.fr is not None and float(local) < linkage.fr - 1e-3 or linkage.to is not None and float(local) > linkage.to + 1e-3
             full = linkage.is_angle and (linkage.fr is None or linkage.to is None or linkage.to - linkage.fr >= 360)
-            if beyond and found is not None and not full and not wraps(linkage, local):
-                out.fault(f"a row beyond the range of the drive, at {crank}")
+            if beyond and found is not None and not full and not wraps(linkage, local) and not any(
+                    turn_of(found - low) < high - low + 1e-6 for low, high in ranges):
+                out.fault(f"a row beyond all ranges of the drive, at {crank}")
             continue
         if found is None:
             out.fault(f"no row at {crank}")
@@ -1527,9 +1534,21 @@ def check_swings(case, rows, out):
             if abs(told.get((name, "turns"), 0)) != abs(total):
                 out.fault(f"link {name} turns {total} times, linkage.dat has {told.get((name, 'turns'))}")
         else:
-            swing = math.degrees(max(angles) - min(angles))
-            if abs(told.get((name, "swing"), 1e9) - swing) > 0.1:
+            swing = math.degrees(greatest(angles, [x[k][-1] for k in turn]) + greatest([-a for a in angles], [x[k][-1] for k in turn]))
+            if abs(told.get((name, "swing"), 1e9) - swing) > 0.05:
                 out.fault(f"link {name} swings by {swing:.3f} deg, linkage.dat has {told.get((name, 'swing'))}")
+
+
+def greatest(values, at):
+    """The greatest of values, by the parabola through three where it is inside."""
+    k = max(range(len(values)), key=values.__getitem__)
+    if not 0 < k < len(values) - 1:
+        return values[k]
+    (a, b, c), (u, v, w) = values[k - 1:k + 2], at[k - 1:k + 2]
+    first, second = (b - a)/(v - u), (c - b)/(w - v)
+    bend = (second - first)/(w - u)
+    slope = first + bend*(v - u)
+    return b - slope*slope/(4*bend) if bend < 0 else b
 
 
 # scissors
@@ -1639,7 +1658,7 @@ def main():
             continue
         for reason in out.undecided:
             undecided[kind + ", rows", reason] += 1
-        for (what, near), value in out.worst.items():
+        for (what, near), value in out.worst.items() if not out.faults or is_scissors else ():
             if not (not is_scissors and case.missing):
                 worst[kind, what, near] = max(worst[kind, what, near], value)
             else:
