@@ -1017,7 +1017,7 @@ class Case:
                 self.missing = dice.choice(names)
                 level = D(dice.choice(("1e-12", "1e-11", "1e-10", "3e-8", "1e-6", "1e-4", "1e-3")))
                 self.miss = level*dice.choice((1, -1))*self.extent
-        self.rule = "through"
+        self.rule = "stop" if self.kind in MODULES and not (self.excess or self.missing) and dice.chance(0.15) else "through"
         self.speed, self.alpha = dice.choice((1, 10, 100)), dice.choice((0, 0, 3))
         self.text = self.deck(at)
 
@@ -1112,7 +1112,7 @@ class Case:
         for pin, guide in linkage.sliders:
             lines.append(f"SLIDER {pin} {guide}")
         drive = f"DRIVE {linkage.crank}" if linkage.is_angle else "DRIVE B g"
-        lines.append(drive + dice.choice((" change_points=through", "")))
+        lines.append(drive + (" change_points=stop" if self.rule == "stop" else dice.choice((" change_points=through", ""))))
         digits = dice.choice((17, 17, 6))
         for pin in list(linkage.given) + linkage.pins:
             lines.append(f"PIN {pin} " + " ".join(f"{float(x):.{digits}g}" for x in self.place(at[pin])))
@@ -1256,6 +1256,9 @@ def check(case, program, folder, deck_path):
         return out
     rows = case.rows
     linkage.follow(float(rows[0]), float(rows[-1]))
+    if case.rule == "stop":
+        check_stop(case, status, said, tables, out)
+        return out
     if status == 2:
         check_refusal(case, said, miss, out)
         return out
@@ -1300,6 +1303,40 @@ def check_closure(case, status, said, tables, out):
             got = math.dist(pins[ends[0]], pins[ends[1]])
             if abs(got - length) > 1e-11*extent:
                 out.fault(f"link {name} is longer by {(got - length)/extent:.1e} of the size at {crank}")
+
+
+def check_stop(case, status, said, tables, out):
+    """Rows from one change point to the next, around the drawing, and no others."""
+    linkage = case.linkage
+    ahead = [turn_of(change - linkage.c0) for change in linkage.changes]
+    low, high = linkage.c0 + max(ahead) - 360, linkage.c0 + min(ahead)
+    beside = D("0.002")  # nearer is a dead point
+    if status == 2:
+        if all(low + beside < c < high - beside for c in case.rows) or "out of reach" not in said:
+            out.fault(f"refused with change_points=stop: {said}")
+        return
+    by_crank = defaultdict(dict)
+    for row in tables["pins"].rows:
+        by_crank[row["crank"]][row["pin"]] = row
+    linkage.follow(float(low), float(high))
+    for c in case.rows:
+        # Whole turns do not matter within one.
+        local = low + turn_of(c - low)
+        found = nearest(sorted(by_crank), float(case.crank(c)), 1e-9)
+        if local < low + beside or local > low + 360 - beside or abs(local - high) < beside:
+            continue
+        if local < high and not linkage.is_inside(local):
+            continue
+        if (found is not None) != (local < high):
+            out.fault(f"change_points=stop: {'no' if found is None else 'a'} row at {case.crank(c)}")
+        elif found is not None:
+            try:
+                z, z1, z2, _ = linkage.at(local)
+            except Undecided as reason:
+                out.undecided.append(str(reason))
+                continue
+            out.compared += 1
+            compare_row(case, by_crank[found], {}, local, (z, z1, z2), case.speed, 0.0, out, case.crank(c))
 
 
 def check_closed(case, out):
