@@ -34,7 +34,7 @@ DEGREE = PI / 180
 TOLERANCE = {"place": (1e-13, 1e-10), "velocity": (1e-11, 1e-9), "acceleration": (1e-9, 1e-7)}
 OF_MISFIT = {"place": 1e3, "velocity": 1e5, "acceleration": 1e7}
 NEAR = 5.0            # a position is near a change point [deg]
-FITS, TOLD = 1.5e-10, 9e-9  # misfits below have to be accepted, those above have to be told, as shares of the size
+TOLD = 9e-9           # misfits above have to be told, others (1e-10 at most are made) to be accepted, as shares of the size
 GRID = D("0.2513")    # places on both sides of a change point are so far apart [deg]
 SIDES = 12            # so many on each side
 
