@@ -37,6 +37,7 @@ NEAR = 5.0            # a position is near a change point [deg]
 TOLD = 9e-9           # misfits above have to be told, others (1e-10 at most are made) to be accepted, as shares of the size
 GRID = D("0.2513")    # places on both sides of a change point are so far apart [deg]
 SIDES = 12            # so many on each side
+MOST_SECONDS = 120    # of a run; it takes 50 ms
 
 
 # plane vectors, of floats or of decimals
@@ -1196,7 +1197,10 @@ def exact_angle(u, v):
 # what the program says
 
 def run(program, deck, folder):
-    result = subprocess.run(program + [deck, "--out", folder], capture_output=True, text=True, timeout=300, check=False)
+    try:
+        result = subprocess.run(program + [deck, "--out", folder], capture_output=True, text=True, timeout=MOST_SECONDS, check=False)
+    except subprocess.TimeoutExpired:
+        return -1, f"not done after {MOST_SECONDS} s", {}, None
     place = os.path.join(folder, os.path.splitext(os.path.basename(deck))[0])
     tables = {}
     if result.returncode in (0, 1) and os.path.isdir(place):
@@ -1646,8 +1650,8 @@ def check_scissors(dice, program, folder, path):
         deck.write(text)
     status, stderr, tables, _ = run(program, path, folder)
     if status:
-        out.fault(f"{n} stages: status {status}: " + " | ".join(x for x in stderr.splitlines() if "error" in x)[:300])
-        if status == 2:
+        out.fault(f"{n} stages: status {status}: {stderr[-300:]}")
+        if not tables:
             return out, n
     found = {row["quantity"]: row["value"] for row in tables["linkage"].rows}
     size = float(2*n*scale)
