@@ -11,7 +11,7 @@ module change_points
   use kinds, only: wp
   use linkages, only: bridge_t, cross, demands_line, demands_turn, equation_t, linkage_t
   use plan_equations, only: drive_of_length
-  use path_steps, only: expected_sines, station_t, take_step
+  use path_steps, only: station_t, step_to, take_step
   use pose_types, only: arm_to_pin, pins_of_body, pose_t
   implicit none (type, external)
   private
@@ -20,9 +20,6 @@ module change_points
 
   !> Equations depend on each other where a determinant is below this share of its usual size.
   real(wp), parameter :: near = 0.02_wp
-
-  !> Steps that a bridge may span.
-  integer, parameter :: most_steps = 6
 
   !> Nodes of a bridge on each side.
   integer, parameter :: nodes = 6
@@ -57,24 +54,18 @@ contains
 
     type(station_t) :: far
     type(bridge_t) :: tried
-    real(wp) :: sine(size(usual)), ahead(size(usual)), spacing
+    real(wp) :: width, spacing
     integer :: k
 
-    found = .false.
-    sine = station%pose%sine
-    do k = 1, most_steps
-      ahead = expected_sines(linkage, station, k*step, unit)
-      if (all(ahead*sine > 0.0_wp) .or. is_near_change(ahead, usual)) cycle
-      call take_step(linkage, station, k*step, unit, far, found, over_change=.true.)
-      if (found) found = .not. is_near_change(far%pose%sine, usual)
-      if (found) exit
-    end do
+    call approach(linkage, station, step, unit, usual, last)
+    call cross_over(linkage, last, step, unit, usual, far, width, found)
     if (.not. found) return
-    call approach(linkage, station, far%crank, unit, usual, last)
-    call approach(linkage, far, station%crank, unit, usual, next)
+    call approach(linkage, far, last%crank - far%crank, unit, usual, next)
     bridge%error = huge(1.0_wp)
-    spacing = 0.5_wp*step
-    do k = 1, 5
+    ! The best spacing is not known beforehand: wide zones want wide ones.
+    spacing = 0.5_wp*max(step, width, -step, -width)
+    spacing = sign(spacing, step)
+    do k = 1, 7
       call build(linkage, last, next, spacing, unit, span, origin, tried)
       if (tried%error < bridge%error) bridge = tried
       spacing = 0.5_wp*spacing
@@ -82,30 +73,107 @@ contains
     found = bridge%error <= most_gap
     if (.not. found) return
     bridge%group = maxloc(merge(1.0_wp, 0.0_wp, last%pose%sine*next%pose%sine < 0.0_wp), dim=1)
-    call find_zero(bridge)
+    call find_zero(linkage, bridge)
   end subroutine find_bridge
 
-  !> As far towards a coordinate beyond the change point as equations are independent.
-  pure subroutine approach(linkage, station, towards, unit, usual, last)
+  !> Over the change point: the polynomial through places before it leads to one behind, where
+  !! equations are independent again. How far it is, is known from the rate of the determinant.
+  pure subroutine cross_over(linkage, last, step, unit, usual, far, width, found)
+    type(linkage_t), intent(in) :: linkage
+    type(station_t), intent(in) :: last  !! where equations are still independent
+    real(wp), intent(in) :: step         !! along the way, with its sign
+    real(wp), intent(in) :: unit
+    real(wp), intent(in) :: usual(:)
+    type(station_t), intent(out) :: far  !! behind it
+    real(wp), intent(out) :: width       !! estimated, from here to the change point
+    logical, intent(out) :: found
+
+    real(wp), parameter :: ways(*) = [2.0_wp, 2.3_wp, 2.7_wp, 3.2_wp, 4.0_wp, 1.7_wp]
+    !> A zone may be as wide as this many steps.
+    integer, parameter :: most_steps = 20
+    type(station_t) :: before
+    type(bridge_t) :: behind
+    type(pose_t) :: expected
+    real(wp) :: small
+    logical :: is_good
+    integer :: group, i, k
+
+    found = .false.
+    width = step
+    group = minloc(abs(last%pose%sine)/usual, dim=1)
+    small = 1.0e-3_wp*step
+    call take_step(linkage, last, -small, unit, before, is_good)
+    if (.not. is_good) return
+    width = small*last%pose%sine(group)/(before%pose%sine(group) - last%pose%sine(group))
+    if (width/step <= 0.0_wp .or. abs(width) > most_steps*abs(step)) return
+    ! Places before, ever closer if they are not on the way.
+    do k = 1, 4
+      call look_back(linkage, last, -width*0.5_wp**k, unit, behind, is_good)
+      if (is_good) exit
+    end do
+    if (.not. is_good) return
+    do i = 1, size(ways)
+      call cross_bridge(linkage, behind, last%crank + ways(i)*width, expected)
+      call step_to(linkage, last, last%crank + ways(i)*width, expected, far, found)
+      if (found) found = .not. is_near_change(far%pose%sine, usual)
+      if (found) return
+    end do
+  end subroutine cross_over
+
+  !> Nodes from a station back.
+  pure subroutine look_back(linkage, last, spacing, unit, behind, is_good)
+    type(linkage_t), intent(in) :: linkage
+    type(station_t), intent(in) :: last
+    real(wp), intent(in) :: spacing !! against the way
+    real(wp), intent(in) :: unit
+    type(bridge_t), intent(out) :: behind
+    logical, intent(out) :: is_good
+
+    call make_room(last%pose, nodes, behind)
+    call place_nodes(linkage, last, spacing, unit, 1, 1, behind, is_good)
+  end subroutine look_back
+
+  !> Room for nodes.
+  pure subroutine make_room(pose, number, bridge)
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: number
+    type(bridge_t), intent(inout) :: bridge
+
+    associate (pins => size(pose%pin, 2), bodies => size(pose%direction, 2), &
+        groups => size(pose%sine))
+      allocate (bridge%crank(number), bridge%pin(2, pins, number), &
+        bridge%direction(2, bodies, number), bridge%sine(groups, number))
+    end associate
+  end subroutine make_room
+
+  !> As far ahead as equations are independent.
+  pure subroutine approach(linkage, station, ahead, unit, usual, last)
     type(linkage_t), intent(in) :: linkage
     type(station_t), intent(in) :: station
-    real(wp), intent(in) :: towards
+    real(wp), intent(in) :: ahead !! beyond that, with its sign
     real(wp), intent(in) :: unit
     real(wp), intent(in) :: usual(:)
     type(station_t), intent(out) :: last
 
     type(station_t) :: next
+    integer, parameter :: most_halvings = 12
     real(wp) :: way
     logical :: is_good
     integer :: i
 
     last = station
-    way = towards - station%crank
-    do i = 1, 20
-      way = 0.5_wp*way
+    way = ahead
+    i = 0
+    do while (i < most_halvings)
       call take_step(linkage, last, way, unit, next, is_good)
-      if (.not. is_good) cycle
-      if (.not. is_near_change(next%pose%sine, usual)) last = next
+      if (is_good) is_good = .not. is_near_change(next%pose%sine, usual) .and. &
+        (next%crank - station%crank)/ahead < 1.0_wp
+      if (is_good) then
+        last = next
+      else
+        way = 0.5_wp*way
+        i = i + 1
+      end if
     end do
   end subroutine approach
 
@@ -129,11 +197,7 @@ contains
     bridge%error = huge(1.0_wp)
     bridge%from = min(last%crank, next%crank)
     bridge%to = max(last%crank, next%crank)
-    associate (pins => size(last%pose%pin, 2), bodies => size(last%pose%direction, 2), &
-        groups => size(last%pose%sine))
-      allocate (bridge%crank(2*nodes), bridge%pin(2, pins, 2*nodes), &
-        bridge%direction(2, bodies, 2*nodes), bridge%sine(groups, 2*nodes))
-    end associate
+    call make_room(last%pose, 2*nodes, bridge)
     if (spacing > 0.0_wp) then
       call place_nodes(linkage, last, -spacing, unit, nodes, -1, bridge, is_good)
       if (is_good) call place_nodes(linkage, next, spacing, unit, nodes + 1, 1, bridge, is_good)
@@ -185,16 +249,22 @@ contains
     end do
   end subroutine place_nodes
 
-  !> The change point: where the determinant of the group is zero.
-  pure subroutine find_zero(bridge)
+  !> The change point: where the determinant of the group is zero, by halving.
+  pure subroutine find_zero(linkage, bridge)
+    type(linkage_t), intent(in) :: linkage
     type(bridge_t), intent(inout) :: bridge
 
-    real(wp) :: ends(2), sine(2)
+    type(pose_t) :: pose
+    real(wp) :: ends(2), first
+    integer :: i
 
-    ! The determinant is nearly linear between the nodes next to it.
     ends = bridge%crank(nodes:nodes + 1)
-    sine = bridge%sine(bridge%group, nodes:nodes + 1)
-    bridge%change = ends(1) - sine(1)*(ends(2) - ends(1))/(sine(2) - sine(1))
+    first = bridge%sine(bridge%group, nodes)
+    do i = 1, 60
+      bridge%change = 0.5_wp*sum(ends)
+      call cross_bridge(linkage, bridge, bridge%change, pose)
+      ends(merge(1, 2, pose%sine(bridge%group)*first > 0.0_wp)) = bridge%change
+    end do
   end subroutine find_zero
 
   !> The largest gap between what joints hold together [m]; angles count with the length of a body.

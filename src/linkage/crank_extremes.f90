@@ -248,7 +248,7 @@ contains
     call place_links(linkage, c, pose, error)
     is_fine = .not. allocated(error)
     if (.not. is_fine) then
-      deallocate (pose%pin)
+      if (allocated(pose%pin)) deallocate (pose%pin)
       return
     end if
     is_fine = all(abs(pose%sine) > dead_point_sine) .or. allocated(pose%coefficients)

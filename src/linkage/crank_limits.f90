@@ -3,7 +3,7 @@ module crank_limits
   use errors, only: error_t
   use kinds, only: wp
   use linkage_paths, only: period_of
-  use linkages, only: drives_angle, linkage_t
+  use linkages, only: bridge_t, drives_angle, linkage_t
   use pose_types, only: pose_t
   use poses, only: find_moving_pose, place_links
   use sorting, only: ascending_order
@@ -26,8 +26,8 @@ module crank_limits
   !> Samples of a turn, or of the length of the longest link.
   integer, parameter :: samples = 720
 
-  !> An end is looked for in steps of samples so far: turns of a linkage without a period, lengths of
-  !! the longest link. From there on steps of a length double.
+  !> An end is looked for in steps of samples so far: turns of a linkage without a period, lengths
+  !! of the longest link. From there on steps of a length double.
   integer, parameter :: turns_searched = 50, lengths_searched = 20, most_doublings = 16
 
   integer, parameter :: most_halvings = 80
@@ -47,10 +47,11 @@ contains
 
     type(crank_range_t) :: range
     real(wp) :: step, c, period, first
+    real(wp) :: place
     logical, allocatable :: closes(:)
     logical :: is_angle
     integer, allocatable :: order(:)
-    integer :: i, k, n
+    integer :: i, k, n, group
 
     allocate (ranges(0))
     period = period_of(linkage)
@@ -81,15 +82,20 @@ contains
     do i = 0, n
       closes(i) = is_closed(linkage, period*i/n)
     end do
-    if (all(closes)) then
+    ! From a gap on, round the period.
+    k = findloc(closes(:n - 1), .false., dim=1) - 1
+    do i = 1, n
+      if (k >= 0) exit
+      call find_jump(linkage, period*(i - 1)/n, period*i/n, group, place)
+      if (group > 0) k = i - 1
+    end do
+    if (k < 0) then
       range%to = period
       range%turns = .true.
       call set_samples(range, is_angle)
       ranges = [range]
       return
     end if
-    ! From a gap on, round the period.
-    k = findloc(closes(:n - 1), .false., dim=1) - 1
     step = period/n
     first = period*k/n
     i = 1
@@ -130,7 +136,7 @@ contains
       tried = [range%from, range%to] + i*period
       common = min(tried(2), hull(2)) - max(tried(1), hull(1))
       if (common < most - rounding) cycle
-      if (common < most + rounding .and. abs(sum(tried)) > abs(sum(ends)) - rounding) cycle
+      if (common < most + rounding .and. abs(sum(tried)) > abs(sum(ends)) + rounding) cycle
       most = max(most, common)
       ends = tried
     end do
@@ -209,18 +215,18 @@ contains
     type(pose_t) :: pose
     type(error_t), allocatable :: error
     real(wp) :: last, beyond, middle
-    integer :: i, jump
+    integer :: i, group
 
     range%blocked_by(end) = 0
     range%left_at(end) = 0
-    call search_end(linkage, inside, step, is_angle, last, beyond, jump, range%is_open(end))
+    call search_end(linkage, inside, step, is_angle, last, beyond, group, range%is_open(end))
     if (range%is_open(end)) last = sign(1.0_wp, step)*max(sign(1.0_wp, step)*last, &
       sign(1.0_wp, step)*farthest)
     if (end == 1) range%from = last
     if (end == 2) range%to = last
     if (range%is_open(end)) return
-    if (jump > 0) then
-      range%blocked_by(end) = linkage%path%bridges(jump)%group
+    if (group > 0) then
+      range%blocked_by(end) = group
       return
     end if
     do i = 1, most_halvings
@@ -242,7 +248,7 @@ contains
   end subroutine find_end
 
   !> Goes on in steps while the linkage closes.
-  pure subroutine search_end(linkage, inside, step, is_angle, last, beyond, jump, is_open)
+  pure subroutine search_end(linkage, inside, step, is_angle, last, beyond, group, is_open)
     type(linkage_t), intent(in) :: linkage
     real(wp), intent(in) :: inside
     real(wp), intent(in) :: step        !! with its sign
@@ -250,7 +256,7 @@ contains
     real(wp), intent(out) :: last       !! at which it still does; where steps of samples end if no
                                         !! end is found
     real(wp), intent(out) :: beyond     !! at which it does no more
-    integer, intent(out) :: jump        !! bridge over which it would jump, at `last`; 0: none
+    integer, intent(out) :: group       !! that would jump at `last`; 0: none
     logical, intent(out) :: is_open     !! no end has been found
 
     real(wp) :: place
@@ -260,8 +266,8 @@ contains
     last = inside
     do i = 1, samples*merge(turns_searched, lengths_searched, is_angle)
       beyond = last + step
-      call find_jump(linkage, last, beyond, jump, place)
-      if (jump > 0) then
+      call find_jump(linkage, last, beyond, group, place)
+      if (group > 0) then
         last = place
         return
       end if
@@ -277,24 +283,50 @@ contains
     is_open = .true.
   end subroutine search_end
 
-  !> A place between two coordinates at which dyads on their sides would jump.
-  pure subroutine find_jump(linkage, from, to, number, place)
+  !> A place between two coordinates at which a group jumps: on their sides, where two ways cross;
+  !! on a path, at its limits, beyond which the linkage may close in another assembly.
+  pure subroutine find_jump(linkage, from, to, group, place)
     type(linkage_t), intent(in) :: linkage
     real(wp), intent(in) :: from, to
-    integer, intent(out) :: number !! of the bridge there; 0: there is none
+    integer, intent(out) :: group !! 0: there is none
     real(wp), intent(out) :: place
 
-    number = 0
+    integer :: i
+
+    group = 0
     place = from
-    if (allocated(linkage%path%crank) .or. .not. allocated(linkage%path%bridges)) return
     associate (path => linkage%path)
-      do number = size(path%bridges), 1, -1
-        if (.not. path%bridges(number)%is_jump) cycle
-        place = path%bridges(number)%change
-        if (path%period > 0.0_wp) place = min(from, to) + modulo(place - min(from, to), path%period)
-        if ((place - from)*(to - place) > 0.0_wp) return
-      end do
+      if (allocated(path%crank)) then
+        do i = 1, 2
+          if (allocated(path%limits(i)%crank)) call look_at(path%limits(i), path%period, from, to, &
+            group, place)
+        end do
+      else if (allocated(path%bridges)) then
+        do i = size(path%bridges), 1, -1
+          if (path%bridges(i)%is_jump) call look_at(path%bridges(i), path%period, from, to, group, &
+            place)
+        end do
+      end if
     end associate
+
   end subroutine find_jump
+
+  !> Whether a change point, or a limit, lies between two coordinates.
+  pure subroutine look_at(bridge, period, from, to, group, place)
+    type(bridge_t), intent(in) :: bridge
+    real(wp), intent(in) :: period          !! 0: none
+    real(wp), intent(in) :: from, to
+    integer, intent(inout) :: group         !! of the bridge, if it lies there and none is known yet
+    real(wp), intent(inout) :: place
+
+    real(wp) :: its_place
+
+    if (group > 0) return
+    its_place = bridge%change
+    if (period > 0.0_wp) its_place = min(from, to) + modulo(its_place - min(from, to), period)
+    if ((its_place - from)*(to - its_place) <= 0.0_wp) return
+    group = bridge%group
+    place = its_place
+  end subroutine look_at
 
 end module crank_limits

@@ -148,7 +148,7 @@ contains
     b = to
     x = [b - golden*(b - a), a + golden*(b - a)]
     y = [sine_of(x(1)), sine_of(x(2))]
-    do while (b - a > 1.0e-11_wp*(to - from))
+    do while (b - a > max(1.0e-11_wp*(to - from), 4.0_wp*spacing(max(abs(a), abs(b)))))
       if (y(1) <= y(2)) then
         b = x(2)
         x = [b - golden*(b - a), x(1)]

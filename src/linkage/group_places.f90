@@ -301,8 +301,8 @@ contains
       largest = maxval(abs(total))
       size_of_step = maxval(abs(step))
       if (.not. size_of_step <= 1.0e6_wp*reach) exit
-      ! Rounding remains: corrections, or misfits near dead points, that are tiny, and corrections no
-      ! smaller than half the last ones.
+      ! Rounding remains: corrections, or misfits near dead points, that are tiny, and corrections
+      ! no smaller than half the last ones.
       if (size_of_step <= 4.0_wp*epsilon(1.0_wp)*reach .or. (size_of_step >= 0.5_wp*last .and. &
         (size_of_step <= 1.0e-12_wp*reach .or. &
         maxval(abs(misfit)) <= 16.0_wp*epsilon(1.0_wp)*reach))) then

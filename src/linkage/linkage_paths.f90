@@ -70,7 +70,8 @@ contains
     if (allocated(linkage%path%crank)) period = linkage%path%period
   end function period_of
 
-  !> The interval of the first drive, an angle, after which all drives repeat [deg]; 0: there is none.
+  !> The interval of the first drive, an angle, after which all drives repeat [deg]; 0: there is
+  !! none.
   pure function period_of_drives(linkage) result(period)
     type(linkage_t), intent(in) :: linkage !! its drives
     real(wp) :: period
@@ -128,7 +129,7 @@ contains
     if (span <= 0.0_wp) return
     call follow(linkage, first, span, usual, .true., path)
     if (changes == changes_branch) call find_jumps(linkage, path%bridges)
-    if (size(path%bridges) == 0 .or. changes == changes_branch) then
+    if ((size(path%bridges) == 0 .and. .not. any(path%is_lost)) .or. changes == changes_branch) then
       ! Dyads need no path where their sides are the same everywhere.
       deallocate (path%crank)
     else if (changes == changes_stop) then
@@ -180,12 +181,11 @@ contains
     real(wp), intent(in) :: sine(:)    !! (groups) that are usual, by the old measure
     type(pose_t), intent(inout) :: pose
 
-    !> Smaller ones are nothing but rounding: a dead point.
-    real(wp), parameter :: least = 1.0e-9_wp
     integer :: i
 
     do i = 1, size(sine)
-      if (linkage%groups(i)%kind /= groups_by_newton .or. sine(i) < least) cycle
+      ! Smaller ones are a dead point whatever is usual: too many digits are lost.
+      if (linkage%groups(i)%kind /= groups_by_newton .or. sine(i) < dead_point_sine) cycle
       linkage%groups(i)%usual = linkage%groups(i)%usual*sine(i)
       pose%sine(i) = pose%sine(i)/sine(i)
     end do
@@ -311,7 +311,8 @@ contains
     real(wp), intent(inout) :: usual(:)   !! (groups) largest determinants there
 
     integer, parameter :: most_places = 100
-    real(wp), parameter :: beside = 10.0_wp !! [deg]
+    real(wp), parameter :: beside(*) = [0.0_wp, 1.0_wp, -1.0_wp, 3.0_wp, -3.0_wp, 10.0_wp, &
+      -10.0_wp] !! [deg]
     real(wp), allocatable :: places(:)
     type(pose_t) :: pose, best
     type(error_t), allocatable :: error
@@ -320,9 +321,9 @@ contains
 
     span = 0.0_wp
     number = 0
+    ! The sides are those of the first: beside it other groups have not left them either.
     places = starts(::1 + (size(starts) - 1)/most_places)
-    if (linkage%drives(1)%kind == drives_angle) places = [places, starts(1) + beside, &
-      starts(1) - beside]
+    if (linkage%drives(1)%kind == drives_angle) places = [starts(1) + beside, places(2:)]
     do i = 1, size(places)
       call place_groups(linkage, places(i), pose, correction, error)
       if (allocated(error)) then
@@ -390,7 +391,9 @@ contains
     type(station_t) :: here, next, last
     type(bridge_t) :: bridge
     type(approach_t) :: approach
-    real(wp) :: step, most_step, goal, unit
+    type(pose_t) :: pose
+    type(error_t), allocatable :: error
+    real(wp) :: step, most_step, goal, unit, correction
     integer :: halvings, stations, turns
     logical :: is_angle, is_close, is_good, found
 
@@ -426,7 +429,7 @@ contains
           reference_point(linkage), bridge, last, next, found)
         if (found) then
           path%bridges = [path%bridges, bridge]
-          call append_station(path, stations, last, unit)
+          if (abs(last%crank - here%crank) > 0.0_wp) call append_station(path, stations, last, unit)
           is_good = .true.
           step = next%crank - here%crank
         end if
@@ -459,7 +462,14 @@ contains
         if (abs(here%crank - first%crank) > 10.0_wp*span) exit
       end if
     end do
-    if (approach%is_found) path%limits(merge(2, 1, sense > 0.0_wp)) = approach%limit
+    if (approach%is_found) then
+      path%limits(merge(2, 1, sense > 0.0_wp)) = approach%limit
+    else if (through .and. halvings > most_halvings .and. .not. has_iterations(linkage)) then
+      pose = here%pose
+      call place_groups(linkage, here%crank + 1.0e-3_wp*sense*most_step, pose, correction, error, &
+        sign(1.0_wp, here%pose%sine))
+      path%is_lost(merge(2, 1, sense > 0.0_wp)) = .not. allocated(error)
+    end if
     call trim_path(path, stations)
   end subroutine march
 
@@ -504,6 +514,7 @@ contains
 
     larger%period = path%period
     larger%limits = path%limits
+    larger%is_lost = path%is_lost
     larger%bridges = path%bridges
     associate (pins => size(pose%pin, 2), bodies => size(pose%direction, 2))
       allocate (larger%crank(room), larger%pin(2, pins, room), larger%direction(2, bodies, room), &
@@ -545,6 +556,7 @@ contains
     path%crank = [down%crank(n:2:-1), up%crank]
     path%limits(1) = down%limits(1)
     path%limits(2) = up%limits(2)
+    path%is_lost = down%is_lost .or. up%is_lost
     path%bridges = [(down%bridges(i), i=size(down%bridges), 1, -1), (up%bridges(i), i=1, &
       size(up%bridges))]
     associate (stations => size(path%crank), pins => size(up%pin, 2), &

@@ -182,9 +182,9 @@ module linkages
     integer :: group = 0                         !! whose determinant is 0 there
     logical :: by_sine = .false.                 !! to a limit: the polynomial is one in this
                                                  !! determinant; else in the coordinate
-    logical :: is_jump = .false.                 !! on the sides of groups it is no corner but a jump:
-                                                 !! the pins that carry a dyad meet
-    real(wp), allocatable :: crank(:)            !! (nodes) ascending, or towards a limit [deg] or [m]
+    logical :: is_jump = .false.                 !! on the sides of groups it is no corner but a
+                                                 !! jump: the pins that carry a dyad meet
+    real(wp), allocatable :: crank(:)            !! (nodes) ascending, or towards a limit [deg], [m]
     real(wp), allocatable :: pin(:, :, :)        !! (2, pins, nodes) from `reference_point` [m]
     real(wp), allocatable :: direction(:, :, :)  !! (2, bodies, nodes)
     real(wp), allocatable :: sine(:, :)          !! (groups, nodes) as in `pose_t`
@@ -203,6 +203,8 @@ module linkages
                                                  !! that are known, without stations too
     real(wp) :: period = 0.0_wp                  !! after which it repeats [deg]; 0: it does not
     logical :: stops = .false.                   !! nothing closes beyond its ends
+    logical :: is_lost(2) = .false.              !! dyads close beyond its first, its last station,
+                                                 !! but it has not been followed there
     type(bridge_t) :: limits(2)                  !! below the first and above the last station, as
                                                  !! far as the limit of a group; without nodes: none
   end type path_t

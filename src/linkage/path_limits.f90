@@ -32,7 +32,7 @@ module path_limits
 
 contains
 
-  !> Remembers a station if it is distinctly nearer to a limit than those before, and finds the limit.
+  !> Remembers a station if it is distinctly nearer to a limit than those before; finds the limit.
   pure subroutine watch(linkage, station, span, approach)
     type(linkage_t), intent(in) :: linkage      !! with groups
     type(station_t), intent(in) :: station      !! the next one on the way

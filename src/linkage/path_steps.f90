@@ -11,7 +11,7 @@ module path_steps
   implicit none (type, external)
   private
 
-  public :: station_t, new_station, take_step, expected_sines
+  public :: station_t, new_station, take_step, step_to
 
   !> A place on the way.
   type :: station_t
@@ -34,46 +34,49 @@ contains
     station%coefficients = find_kinematic_coefficients(linkage, pose)
   end function new_station
 
-  !> One step along the way. It is good if the linkage closes near where it is expected, with the
-  !! determinants that are expected: it cannot have left its branch, and over a change point goes on
-  !! smoothly.
-  pure subroutine take_step(linkage, station, step, unit, next, is_good, over_change)
+  !> One step along the way, on the same side of all change points, from velocities and
+  !! accelerations.
+  pure subroutine take_step(linkage, station, step, unit, next, is_good)
     type(linkage_t), intent(in) :: linkage     !! with groups
     type(station_t), intent(in) :: station     !! before the step
     real(wp), intent(in) :: step               !! [deg] or [m]
     real(wp), intent(in) :: unit               !! of the coordinate [rad] or [m]
     type(station_t), intent(out) :: next
-    logical, intent(out) :: is_good
-    logical, intent(in), optional :: over_change !! determinants may change their signs; absent: no
+    logical, intent(out) :: is_good            !! as of `step_to`
 
-    type(error_t), allocatable :: error
-    type(pose_t) :: expected, pose
-    real(wp) :: sine(size(linkage%groups)), correction
+    type(pose_t) :: expected
 
     expected = expected_pose(station, step*unit)
+    is_good = all(determinants_of(linkage, expected)*station%pose%sine > 0.0_wp)
+    if (is_good) call step_to(linkage, station, station%crank + step, expected, next, is_good)
+  end subroutine take_step
+
+  !> A step to where the linkage is expected. It is good if the linkage closes near there, with the
+  !! determinants that are expected: it cannot have left its branch, and over a change point goes on
+  !! smoothly.
+  pure subroutine step_to(linkage, station, crank, expected, next, is_good)
+    type(linkage_t), intent(in) :: linkage     !! with groups
+    type(station_t), intent(in) :: station     !! before the step
+    real(wp), intent(in) :: crank              !! after it [deg] or [m]
+    type(pose_t), intent(in) :: expected       !! then
+    type(station_t), intent(out) :: next
+    logical, intent(out) :: is_good
+
+    type(error_t), allocatable :: error
+    type(pose_t) :: pose
+    real(wp) :: sine(size(linkage%groups)), correction
+
     sine = determinants_of(linkage, expected)
-    is_good = present(over_change) .or. all(sine*station%pose%sine > 0.0_wp)
-    if (.not. is_good) return
     pose = expected
-    call place_groups(linkage, station%crank + step, pose, correction, error, sign(1.0_wp, sine))
+    if (allocated(pose%coefficients)) deallocate (pose%coefficients)
+    call place_groups(linkage, crank, pose, correction, error, sign(1.0_wp, sine))
     is_good = .not. allocated(error)
     if (.not. is_good) return
     correction = maxval(abs(pose%pin - expected%pin))
     is_good = all(pose%sine*sine > 0.0_wp) .and. all(abs(pose%sine) > dead_point_sine) .and. &
       correction <= 0.1_wp*maxval(abs(pose%pin - station%pose%pin))
-    if (is_good) next = new_station(linkage, station%crank + step, pose)
-  end subroutine take_step
-
-  !> The determinants of groups that are expected after a step.
-  pure function expected_sines(linkage, station, step, unit) result(sine)
-    type(linkage_t), intent(in) :: linkage
-    type(station_t), intent(in) :: station !! before the step
-    real(wp), intent(in) :: step           !! [deg] or [m]
-    real(wp), intent(in) :: unit           !! of the coordinate [rad] or [m]
-    real(wp) :: sine(size(linkage%groups))
-
-    sine = determinants_of(linkage, expected_pose(station, step*unit))
-  end function expected_sines
+    if (is_good) next = new_station(linkage, crank, pose)
+  end subroutine step_to
 
   !> Where velocities and accelerations lead.
   pure function expected_pose(station, d) result(pose)

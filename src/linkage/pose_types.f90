@@ -5,7 +5,8 @@ module pose_types
   implicit none (type, external)
   private
 
-  public :: pose_t, kinematic_coefficients_t, drawn_pose, arm_to_pin, pins_of_body, place_of_pin, way_length
+  public :: pose_t, kinematic_coefficients_t, drawn_pose, arm_to_pin, pins_of_body, &
+    place_of_pin, way_length
 
   !> First and second derivatives with respect to the crank angle θ2.
   type :: kinematic_coefficients_t

@@ -159,6 +159,12 @@ contains
         if (k > 0) error%place%body = a_body_of(linkage%groups(k))
         return
       end if
+      if (any(linkage%path%is_lost)) then
+        call set_error(error, error_of_numerics, "the linkage has not been followed as far as "// &
+          "here: beyond a change point it may go on in several ways; expected "// &
+          "change_points=branch on the first DRIVE")
+        return
+      end if
       ! Another range: dyads close there without a way from the drawing.
       deallocate (error)
       call place_groups(linkage, crank, pose, correction, error)

@@ -11,7 +11,8 @@ module positions
   implicit none (type, external)
   private
 
-  public :: positions_t, state_t, refuse_change_points, find_positions, list_positions, find_state, by_crank_angle
+  public :: positions_t, state_t, refuse_change_points, find_positions, list_positions, &
+    find_state, by_crank_angle
 
   !> The linkage at one crank angle.
   type :: state_t

@@ -65,8 +65,9 @@ contains
       range = "range of the first position in reach: "
       if (home%is_drawn) range = "range of the drawing: "
       call append_string(notes, range//to_string(shown_crank(variant, home%ends(1)), 9)//" to "// &
-        to_string(shown_crank(variant, home%ends(2)), 9)//" "//unit_of_drive(variant)//", one of "// &
-        to_string(home%ranges)//"; positions in others are reached only by taking the linkage apart")
+        to_string(shown_crank(variant, home%ends(2)), 9)//" "//unit_of_drive(variant)// &
+        ", one of "//to_string(home%ranges)//"; positions in others are reached only by taking "// &
+        "the linkage apart")
     end associate
   end subroutine append_home_range
 

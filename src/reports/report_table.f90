@@ -314,13 +314,13 @@ module report_table
     report_kind_t(name="motion", help="the motion under motor and loads", &
       pattern="REPORT motion crank= [speed=0] end= step= "// &
       "[columns=accelerations,forces,power] [pins=no|yes] [change_points=stop|through]", &
-      default="speed=0 pins=no change_points=stop", studies="motion", masses=.true., &
+      default="speed=0 pins=no", studies="motion", masses=.true., &
       linkages=four_bars, tables=[ &
       table_kind_t("motion", motion_columns), motion_pins, no_table]), &
     report_kind_t(name="motion", help="of other linkages: the motion under motor and loads", &
       pattern="REPORT motion crank= [speed=0] end= step= "// &
       "[columns=accelerations,forces,power] [pins=no|yes] [change_points=stop|through]", &
-      default="speed=0 pins=no change_points=stop", studies="motion", masses=.true., &
+      default="speed=0 pins=no", studies="motion", masses=.true., &
       linkages=other_linkages, tables=[ &
       table_kind_t("motion", "time:time position*:deg rate*:rate torque:moment "// &
       "kinetic,potential,work,energy_error:energy acceleration*:rad/s2 "// &

@@ -10,8 +10,8 @@ module study_requests
   use linkage_motion_study, only: linkage_motion_request_t
   use mechanisms, only: mechanism_t
   use models, only: effects_static, has_gauge_histories, has_law, inertia_lumped, model_t, &
-    motion_goes_through, needs_loads, needs_study, report_number, report_with, accuracy_of_study, solver_band, &
-    solver_dense
+    motion_goes_through, needs_loads, needs_study, report_number, report_with, &
+    accuracy_of_study, solver_band, solver_dense
   use motion_study, only: motion_request_t
   use motor_cards, only: motor_t
   use positions, only: positions_t

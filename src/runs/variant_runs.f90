@@ -6,6 +6,7 @@ module variant_runs
     most_attempts, solve_block
   use interruption, only: was_interrupted
   use jobs, only: job_t
+  use drawn_cranks, only: starting_cranks
   use home_ranges, only: find_home_range
   use kinds, only: wp
   use link_store, only: link_store_t
@@ -97,7 +98,8 @@ contains
         found%class = class_of_other()
       end if
       if (found%class%reach%closes .and. .not. (model%is_structure .or. has_law(model))) &
-        call find_home_range(model, linkage, has_gaps(run%results), found%home)
+        call find_home_range(linkage, starting_cranks(model, linkage), model%crank%value, &
+        has_gaps(run%results), found%home)
       call find_study("kinematics", threads, run%results)
       do i = 1, size(study_names)
         if (study_names(i) == "kinematics" .or. .not. needs_study(model, study_names(i))) cycle

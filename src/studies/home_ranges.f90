@@ -1,11 +1,9 @@
 !> The range of the first drive in which a linkage is: it leaves it only if it is taken apart.
 module home_ranges
   use crank_limits, only: crank_range_t, find_ranges, in_turns_of
-  use drawn_cranks, only: starting_cranks
   use kinds, only: wp
   use linkage_paths, only: period_of
   use linkages, only: linkage_t
-  use models, only: model_t
   implicit none (type, external)
   private
 
@@ -23,21 +21,21 @@ module home_ranges
 contains
 
   !> The range of the drawing, or without one that of the first position that has one.
-  pure subroutine find_home_range(model, linkage, has_gaps, home)
-    type(model_t), intent(in) :: model       !! its positions
+  pure subroutine find_home_range(linkage, starts, positions, has_gaps, home)
     type(linkage_t), intent(in) :: linkage   !! of any kind, with its path
+    real(wp), intent(in) :: starts(:)        !! of the drawing, if there is one, then those of the
+                                             !! deck [deg] or [m]
+    real(wp), intent(in) :: positions(:)     !! of the deck [deg] or [m]
     logical, intent(in) :: has_gaps          !! there may be several ranges
     type(home_range_t), intent(out) :: home
 
     type(crank_range_t), allocatable :: ranges(:)
-    real(wp), allocatable :: starts(:)
     real(wp) :: period, ahead
     integer :: i, r
 
     period = period_of(linkage)
     if (period > 360.5_wp) home%period = period
     if (.not. has_gaps) return
-    starts = starting_cranks(model, linkage)
     call find_ranges(linkage, starts, ranges)
     if (size(ranges) < 2) return
     do i = 1, size(starts)
@@ -47,7 +45,7 @@ contains
         if (ahead < 0.0_wp .or. ahead > ranges(r)%to - ranges(r)%from) cycle
         home%ranges = size(ranges)
         home%is_drawn = i == 1 .and. any(linkage%drawing%is_drawn .and. .not. linkage%is_ground)
-        home%ends = in_turns_of(ranges(r), period, model%crank%value)
+        home%ends = in_turns_of(ranges(r), period, positions)
         return
       end do
     end do

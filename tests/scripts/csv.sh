@@ -76,7 +76,7 @@ failed_rows() {
   failed_deck >"$scratch/failed.deck"
   run 1 --quiet --format csv --out "$out" "$scratch/failed.deck" || return 1
   for table in kinematics frequencies inertia shapes branches; do
-    [ "$(grep -c '"dead point:.*"' "$out/failed/$table.csv")" -eq 9 ] || { echo "$table.csv lacks failed rows"; return 1; }
+    [ "$(grep -c '"change point:.*"' "$out/failed/$table.csv")" -eq 9 ] || { echo "$table.csv lacks failed rows"; return 1; }
   done
   same_values "$out/failed"
 }

@@ -29,11 +29,13 @@ END_OF_DECK
 # status: every failed angle is told, the log lists them, nothing else is missing.
 status() {
   run 1 --out "$scratch/out" "$deck" || return 1
-  for angle in 0 360 720 180 540 -180; do
-    says "change.deck: error: crank $angle deg: dead point" && grep -q "^crank $angle deg: dead point" "$out/run.log" || return 1
+  for angles in "0 to 720 deg, 3 positions" "180 to 540 deg, 2 positions" "-180 deg"; do
+    says "change.deck: error: crank $angles: change point" && grep -q "^crank $angles: change point" "$out/run.log" || return 1
   done
   for table in kinematics frequencies; do
-    [ "$(grep -c '^# failed speed=1 crank=360 : dead point' "$out/$table.dat")" -eq 1 ] || { echo "$table.dat reports no failed row"; return 1; }
+    for angle in 0 360 720 180 540 -180; do
+      [ "$(grep -c "^# failed speed=1 crank=$angle : change point" "$out/$table.dat")" -eq 1 ] || { echo "$table.dat reports no failed row"; return 1; }
+    done
     [ "$(grep -vc -e '^#' -e '^$' "$out/$table.dat")" -eq 9 ] || { echo "$table.dat: wrong number of rows"; return 1; }
   done
 }
@@ -52,7 +54,7 @@ check "failed rows are reported and the rest is written" status
 for table in kinematics frequencies inertia; do
   check "blocks of $table.dat with failed rows" blocks $table
 done
-check "--quiet still reports failed rows" eval 'run 1 --quiet --out "$scratch/out" "$deck" && says "crank 0 deg: dead point"'
+check "--quiet still reports failed rows" eval 'run 1 --quiet --out "$scratch/out" "$deck" && says "crank 0 to 720 deg, 3 positions: change point"'
 
 # A follower two kilometres thick: of the mass matrix nothing but rounding is left at many a position.
 sed -e 's/circle *diameter=[0-9.]*/circle diameter=2019543.21/' -e 's/step 15/step 30/' inputs/thick.deck >"$scratch/absurd.deck"
@@ -130,7 +132,7 @@ leaving_block() {
     "CRANK 0 to 360 step 5" "SPEED 10" "REPORT drive" "REPORT linkage" "REPORT geometry crank=0,90" \
     "REPORT motion crank=0 speed=10 end=1 step=0.05" >"$scratch/slot.deck"
   run 1 --out "$scratch/out" "$scratch/slot.deck" && says "slot.deck:6:10: warning: the block at A leaves 'lever' between crank 50.554 and 129.45" &&
-    says "crank 55 deg: the block at A leaves 'lever'" && says "crank 50.5538644124 deg: the block at A leaves 'lever'" || return 1
+    says "crank 55 to 125 deg, 15 positions: the block at A leaves 'lever'" && says "crank 50.5538644124 deg: the block at A leaves 'lever'" || return 1
   [ "$(grep -c "^# failed .*: the block at A leaves 'lever'" "$scratch/out/slot/drive.dat")" -eq 15 ] || { echo "not 15 failed rows"; return 1; }
   grep -q "^# failed crank=90 : the block at A leaves 'lever'" "$scratch/out/slot/geometry.dat" || { echo "the drawing does not tell"; return 1; }
   grep -q "^ *A  *range_from  1.2944" "$scratch/out/slot/linkage.dat" || { echo "the range does not end"; return 1; }
@@ -144,7 +146,7 @@ lengths() {
   printf '%s\n' "UNITS mm kg s" "GROUND O 0 0" "GUIDE g 0 0 angle=0" "LINK crank O A length=30 mass=1 inertia=10" \
     "LINK rod A B length=100 mass=1 inertia=10" "SLIDER B g" "BRANCH A left O B" "DRIVE B g" \
     "CRANK 120 150" "REPORT pins" "REPORT motion crank=160 end=1 step=0.1" >"$scratch/pump.deck"
-  run 1 --out "$scratch/out" "$scratch/pump.deck" && says "crank 150 mm: the position is out of reach" &&
-    says "motion, time 0 s, crank 160 mm: the position is out of reach"
+  run 1 --out "$scratch/out" "$scratch/pump.deck" && says "crank 150 mm: out of reach: 'rod' and 'crank' together are 20 mm too short" &&
+    says "motion, time 0 s, crank 160 mm: out of reach: 'rod' and 'crank' together are 30 mm too short"
 }
 check "positions of a slider are lengths" lengths

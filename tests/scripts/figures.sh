@@ -373,7 +373,7 @@ REPORT kinematics
 END_OF_DECK
   run 0 --quiet --out "$scratch/out" "$scratch/meeting.deck" || return 1
   drawn meeting figures kinematics_angles special_positions || return 1
-  { sed '/^REPORT/d' "$scratch/meeting.deck" && echo "REPORT geometry crank=0,10"; } >"$scratch/drawn.deck"
+  { sed '/^REPORT/d; s/^DRIVE crank/& change_points=branch/' "$scratch/meeting.deck" && echo "REPORT geometry crank=0,10"; } >"$scratch/drawn.deck"
   run 1 --quiet --out "$scratch/out" "$scratch/drawn.deck" && says "crank 0 deg" && grep -q '^# *failed crank=0 ' "$scratch/out/drawn/geometry.dat"
 }
 

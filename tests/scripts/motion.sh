@@ -117,7 +117,7 @@ sharp() {
 check "friction that turns over in no time" sharp
 
 # A motion that ends too soon is a failed row; what comes before it is written, and other tables are.
-parallelogram "CRANK 10 20" "REPORT kinematics" "REPORT motion crank=60 speed=7 end=1 step=0.05" >"$scratch/line.deck"
+parallelogram "CRANK 10 20" "REPORT kinematics" "REPORT motion crank=60 speed=7 end=1 step=0.05 change_points=stop" >"$scratch/line.deck"
 line() {
   run 1 --out "$out" "$scratch/line.deck" || return 1
   says "line.deck: error: motion, time 0.29178574" && says "change point: all links lie in one line" || return 1

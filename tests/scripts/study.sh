@@ -254,8 +254,8 @@ SPEED    2
 REPORT   summary of=torque
 END_OF_DECK
   run 1 --quiet --out "$out" --format csv "$scratch/nothing.deck" || return 1
-  grep -q '^# failed : dead point' "$out/nothing/summary.dat" || { echo "no failed row"; return 1; }
-  python3 -B -c 'import csv, sys; rows = list(csv.reader(open(sys.argv[1], newline=""))); assert len(rows) == 2 and len(rows[0]) == len(rows[1]) and rows[1][-1].startswith("dead point") and not any(rows[1][:-1]), rows' \
+  grep -q '^# failed : change point' "$out/nothing/summary.dat" || { echo "no failed row"; return 1; }
+  python3 -B -c 'import csv, sys; rows = list(csv.reader(open(sys.argv[1], newline=""))); assert len(rows) == 2 and len(rows[0]) == len(rows[1]) and rows[1][-1].startswith("change point") and not any(rows[1][:-1]), rows' \
     "$out/nothing/summary.csv"
 }
 check "a deck without a row has a failed one" nothing

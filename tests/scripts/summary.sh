@@ -62,7 +62,7 @@ inputs() {
 }
 
 parallelogram() {
-  { motion_deck "0 90 180 $1" | sed 's/279.4/254/; s/266.7/100/'; echo "SPEED 1 2"; } >"$scratch/par.deck"
+  { motion_deck "0 90 180 $1" | sed 's/279.4/254/; s/266.7/100/; s/^LINK .*/& mass=1 inertia=1/; s/^REPORT .*/REPORT reactions/'; echo "SPEED 1 2"; } >"$scratch/par.deck"
 }
 
 failures() {
@@ -70,7 +70,7 @@ failures() {
   run 1 --out "$out" "$scratch/par.deck" && true_summary "$out/par" && tells "$out/par/summary.json" \
     'd["exit_status"] == 1 and d["counts"]["positions"] == 3 and d["counts"]["speeds"] == 2 and d["counts"]["modes"] == 0 and
      [(f["stage"], f["speed"], f["crank"]) for f in d["failures"]] == [("position", None, 0), ("position", None, 180)] and
-     d["failures"][0]["reason"].startswith("dead point")'
+     d["failures"][0]["reason"].startswith("change point")'
 }
 
 # Of the deck with its place, of the run without.

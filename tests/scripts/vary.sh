@@ -144,7 +144,7 @@ varied "SET c 266.7" "VARY b 280 900 270 100" "SPEED 0 2" "CRANK 0 90" "REPORT k
   >"$scratch/unreachable.deck"
 unreachable() {
   run 1 --out "$out" --threads 1 --format csv "$scratch/unreachable.deck" || return 1
-  says "unreachable.deck: error: b=900: the linkage closes at no crank angle" && says "error: b=100, crank 0 deg: out of reach: 'coupler' is" &&
+  says "unreachable.deck: error: b=900: the linkage closes at no crank angle" && says "error: b=100, crank 0 deg: out of reach: 'follower' is" &&
     says "in 1 of 4 variants, b=900: rows will be marked as failed" || return 1
   for table in kinematics frequencies; do
     for speed in 0 2; do

@@ -16,7 +16,8 @@ module change_point_checks
 contains
 
   !> Warns at every change point between the positions of the deck where each is on its side: there
-  !! are corners in the motion, which a user rarely means. Whoever writes `change_points=branch` does.
+  !! are corners in the motion, which a user rarely means. Whoever writes `change_points=branch`
+  !! does.
   subroutine warn_of_change_points(model, mechanism, diagnostics)
     type(model_t), intent(in) :: model                !! without errors
     type(mechanism_t), intent(in) :: mechanism        !! of this model

@@ -12,6 +12,7 @@ module reach_checks
   use pose_types, only: pose_t
   use poses, only: place_links
   use reach_texts, only: reach_words
+  use sorting, only: ascending_order
   use text, only: plural, to_string
   use value_lists, only: value_list_t
   implicit none (type, external)
@@ -23,8 +24,8 @@ contains
 
   !> An error if the linkage closes at none of some positions, else a warning: how many are out of
   !! reach, what does not reach at the first of them, where the linkage closes and, where none is in
-  !! reach, where it is drawn; with a CRANK card. Blocks that leave their links are not counted: they
-  !! have messages of their own.
+  !! reach, where it is drawn; with a CRANK card. Blocks that leave their links are not counted:
+  !! they have messages of their own.
   pure subroutine check_reach(model, mechanism, crank, leaving, diagnostics)
     type(model_t), intent(in) :: model                !! without errors so far
     type(mechanism_t), intent(in) :: mechanism        !! of this model, that closes somewhere
@@ -97,8 +98,8 @@ contains
   pure function reachable_intervals(model, mechanism, inside, positions) result(limits)
     type(model_t), intent(in) :: model          !! of the mechanism
     type(mechanism_t), intent(in) :: mechanism  !! any
-    real(wp), intent(in) :: inside(:)           !! of a driven length intervals about these are found
-                                                !! [deg] or [m]
+    real(wp), intent(in) :: inside(:)           !! of a driven length intervals about these are
+                                                !! found [deg] or [m]
     real(wp), intent(in) :: positions(:)        !! [deg] or [m]
     real(wp), allocatable :: limits(:, :)       !! (2, intervals), none if it turns fully
 
@@ -118,7 +119,7 @@ contains
         room(:, filled) = in_turns_of(ranges(r), period_of(mechanism%linkage), positions)
       end if
     end do
-    limits = room(:, :filled)
+    limits = room(:, ascending_order(room(1, :filled)))
   end function reachable_intervals
 
   !> `between -83.1 and 83.1 deg and between 110 and 140 deg`
@@ -132,11 +133,22 @@ contains
     words = ""
     do i = 1, size(limits, 2)
       if (i > 1) words = words//" and "
-      words = words//"between "//crank_text(model, limits(1, i), 7)//" and "//crank_text(model, &
-        limits(2, i), 7)
+      words = words//"between "//crank_text(model, cleared(limits(1, i)), 7)//" and "// &
+        crank_text(model, cleared(limits(2, i)), 7)
     end do
     words = words//" "//unit_of_crank(model)
   end function interval_words
+
+  !> A limit at 0 without its rounding.
+  pure function cleared(limit) result(value)
+    real(wp), intent(in) :: limit
+    real(wp) :: value
+
+    real(wp), parameter :: rounding = 1.0e-9_wp
+
+    value = limit
+    if (abs(limit) < rounding) value = 0.0_wp
+  end function cleared
 
   !> The step that the user has in mind: that of the first range; 0: none is known.
   pure function step_of(crank) result(step)
@@ -176,7 +188,8 @@ contains
     end do
   end function ready_card
 
-  !> `a to b step s`, half a grid step or more inside the limits; in a tiny interval the middle alone.
+  !> `a to b step s`, half a grid step or more inside the limits; in a tiny interval the middle
+  !! alone.
   pure function interval(ends, step, grid) result(words)
     real(wp), intent(in) :: ends(2), step
     real(wp), intent(in) :: grid !! steps a unit

@@ -7,7 +7,8 @@ module echo
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
   use link_cards, only: has_own_mass
-  use models, only: branch_crossed, has_law, is_four_bar, link_mass, model_t
+  use models, only: branch_crossed, has_law, is_four_bar, link_mass, model_t, &
+    rule_at_change_points
   use response_cards, only: response_form
   use sections, only: shape_channel
   use shear, only: link_rotary_inertia, link_shear_stiffness, shear_coefficient
@@ -70,9 +71,11 @@ contains
       if (size(model%meshes) > 0) call append_default_text(buffer, model, trim(kind%keyword), &
         trim(kind%default))
     case ("BRANCH")
-      ! Other linkages have none; that of a four-bar may come from the drawing.
-      if (is_four_bar(model)) call append_default_text(buffer, model, trim(kind%keyword), &
-        trim(merge("crossed", "open   ", model%branch == branch_crossed)))
+      ! Other linkages have none; that of a four-bar may come from the drawing. With a card every
+      ! position would keep its side at change points.
+      if (is_four_bar(model) .and. rule_at_change_points(model) == model%drives(1)%change_points) &
+        call append_default_text(buffer, model, trim(kind%keyword), trim(merge("crossed", &
+        "open   ", model%branch == branch_crossed)))
     case ("SPEED")
       if (.not. has_law(model)) call append_default_text(buffer, model, trim(kind%keyword), &
         trim(kind%default))
