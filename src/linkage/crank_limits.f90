@@ -10,7 +10,7 @@ module crank_limits
   implicit none (type, external)
   private
 
-  public :: crank_range_t, find_ranges, in_turns_of, turns_fully
+  public :: crank_range_t, find_ranges, find_ranges_of_deck, in_turns_of, turns_fully
 
   !> An interval of the first drive in which the linkage closes on its branch.
   type :: crank_range_t
@@ -112,6 +112,26 @@ contains
       i = max(i + 1, 1 + floor((range%to - first)/step))
     end do
   end subroutine find_ranges
+
+  !> The ranges of the first drive in the turns of a deck's positions, ascending there.
+  pure subroutine find_ranges_of_deck(linkage, inside, positions, ranges)
+    type(linkage_t), intent(in) :: linkage                      !! of any kind, with its path
+    real(wp), intent(in) :: inside(:)                           !! of a driven length, those around
+                                                                !! which are found [deg] or [m]
+    real(wp), intent(in) :: positions(:)                        !! of the deck [deg] or [m]
+    type(crank_range_t), allocatable, intent(out) :: ranges(:)
+
+    real(wp) :: ends(2)
+    integer :: r
+
+    call find_ranges(linkage, inside, ranges)
+    do r = 1, size(ranges)
+      ends = in_turns_of(ranges(r), period_of(linkage), positions)
+      ranges(r)%from = ends(1)
+      ranges(r)%to = ends(2)
+    end do
+    ranges = ranges(ascending_order(ranges%from))
+  end subroutine find_ranges_of_deck
 
   !> The ends of a range in those turns that some positions have: where most of it is between them;
   !! then nearest to 0.
@@ -217,34 +237,29 @@ contains
     real(wp) :: last, beyond, middle
     integer :: i, group
 
-    range%blocked_by(end) = 0
     range%left_at(end) = 0
     call search_end(linkage, inside, step, is_angle, last, beyond, group, range%is_open(end))
-    if (range%is_open(end)) last = sign(1.0_wp, step)*max(sign(1.0_wp, step)*last, &
-      sign(1.0_wp, step)*farthest)
-    if (end == 1) range%from = last
-    if (end == 2) range%to = last
-    if (range%is_open(end)) return
-    if (group > 0) then
-      range%blocked_by(end) = group
-      return
+    range%blocked_by(end) = group
+    if (range%is_open(end)) then
+      if (step*(farthest - last) > 0.0_wp) last = farthest
+    else if (group == 0) then
+      do i = 1, most_halvings
+        middle = 0.5_wp*(last + beyond)
+        if (abs(beyond - last) <= 2.0_wp*spacing(max(abs(last), abs(step)))) exit
+        if (is_inside(linkage, middle)) then
+          last = middle
+        else
+          beyond = middle
+        end if
+      end do
+      call place_links(linkage, beyond, pose, error)
+      if (allocated(error)) range%left_at(end) = error%place%pin
+      call place_links(linkage, last, pose, error)
+      if (.not. allocated(error) .and. size(pose%sine) > 0) range%blocked_by(end) = &
+        minloc(abs(pose%sine), dim=1)
     end if
-    do i = 1, most_halvings
-      middle = 0.5_wp*(last + beyond)
-      if (abs(beyond - last) <= 2.0_wp*spacing(max(abs(last), abs(step)))) exit
-      if (is_inside(linkage, middle)) then
-        last = middle
-      else
-        beyond = middle
-      end if
-    end do
     if (end == 1) range%from = last
     if (end == 2) range%to = last
-    call place_links(linkage, beyond, pose, error)
-    if (allocated(error)) range%left_at(end) = error%place%pin
-    call place_links(linkage, last, pose, error)
-    if (allocated(error)) return
-    if (size(pose%sine) > 0) range%blocked_by(end) = minloc(abs(pose%sine), dim=1)
   end subroutine find_end
 
   !> Goes on in steps while the linkage closes.

@@ -1,6 +1,6 @@
 !> The range of the first drive in which a linkage is: it leaves it only if it is taken apart.
 module home_ranges
-  use crank_limits, only: crank_range_t, find_ranges, in_turns_of
+  use crank_limits, only: crank_range_t, find_ranges_of_deck
   use kinds, only: wp
   use linkage_paths, only: period_of
   use linkages, only: linkage_t
@@ -36,7 +36,7 @@ contains
     period = period_of(linkage)
     if (period > 360.5_wp) home%period = period
     if (.not. has_gaps) return
-    call find_ranges(linkage, starts, ranges)
+    call find_ranges_of_deck(linkage, starts, positions, ranges)
     if (size(ranges) < 2) return
     do i = 1, size(starts)
       do r = 1, size(ranges)
@@ -45,7 +45,7 @@ contains
         if (ahead < 0.0_wp .or. ahead > ranges(r)%to - ranges(r)%from) cycle
         home%ranges = size(ranges)
         home%is_drawn = i == 1 .and. any(linkage%drawing%is_drawn .and. .not. linkage%is_ground)
-        home%ends = in_turns_of(ranges(r), period, positions)
+        home%ends = [ranges(r)%from, ranges(r)%to]
         return
       end do
     end do

@@ -3,14 +3,13 @@
 module limits_study
   use crank_extremes, only: angle_of_body, extremes_t, find_extremes, place_of_slider, &
     pressure_of_lever, pressure_of_slider, quantity_t, transmission_of_dyad, transmission_of_lines
-  use crank_limits, only: crank_range_t, find_ranges, in_turns_of
+  use crank_limits, only: crank_range_t, find_ranges, find_ranges_of_deck
   use dead_points, only: find_low_points, low_point_t
   use group_equations, only: drive_value, line_offset
   use kinds, only: wp
-  use linkage_paths, only: has_iterations, leave_path, period_of
+  use linkage_paths, only: has_iterations, leave_path
   use linkages, only: drives_angle, groups_by_newton, groups_cross_slide, groups_driven_dyad, &
     groups_dyad, groups_on_line, groups_through_pin, groups_two_lines, linkage_t
-  use sorting, only: ascending_order
   implicit none (type, external)
   private
 
@@ -52,18 +51,11 @@ contains
     type(limits_result_t), intent(out) :: found !! over all ranges
 
     real(wp), allocatable :: inside(:)
-    real(wp) :: ends(2)
     integer :: r
 
     inside = positions
     if (size(inside) == 0) inside = everywhere(linkage)
-    call find_ranges(linkage, inside, found%ranges)
-    do r = 1, size(found%ranges)
-      ends = in_turns_of(found%ranges(r), period_of(linkage), positions)
-      found%ranges(r)%from = ends(1)
-      found%ranges(r)%to = ends(2)
-    end do
-    found%ranges = found%ranges(ascending_order(found%ranges%from))
+    call find_ranges_of_deck(linkage, inside, positions, found%ranges)
     call list_quantities(linkage, found%quantities)
     call find_further_ranges(linkage, inside(1), found)
     allocate (found%extremes(size(found%quantities), size(found%ranges)), &

@@ -153,7 +153,7 @@ contains
       "a crank that turns fully, and there is none"
     if (reach%least > 0.0_wp .or. reach%most < 180.0_wp) then
       call add_error(diagnostics, place, "the crank turns only "//interval_words(model, &
-        reachable_intervals(model, mechanism, [0.0_wp], model%crank%value))//no_state, &
+        reachable_intervals(mechanism, [0.0_wp], model%crank%value))//no_state, &
         kind=error_of_reach)
     else
       call add_error(diagnostics, place, "the crank meets a dead point, where the links are in "// &

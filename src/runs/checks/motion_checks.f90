@@ -35,7 +35,7 @@ contains
       if (.not. can_reach(reach, report%start_angle)) then
         call add_error(diagnostics, report%start_angle_word, "the initial crank angle "// &
           to_string(report%start_angle, 10)//" deg is out of reach; the linkage closes "// &
-          interval_words(model, reachable_intervals(model, mechanism, [report%start_angle], &
+          interval_words(model, reachable_intervals(mechanism, [report%start_angle], &
           [report%start_angle])), kind=error_of_reach)
       end if
       if (has_moving_mass(mechanism%linkage, mechanism%load_elements) .or. &

@@ -1,18 +1,16 @@
 !> Positions of a deck that are out of reach, of any linkage.
 module reach_checks
-  use crank_limits, only: crank_range_t, find_ranges, in_turns_of
+  use crank_limits, only: crank_range_t, find_ranges_of_deck
   use deck_lengths, only: crank_text, in_deck, unit_of_crank
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use drawn_cranks, only: starting_cranks
   use errors, only: error_of_reach, error_t
   use kinds, only: wp
-  use linkage_paths, only: period_of
   use mechanisms, only: mechanism_t
   use models, only: drives_length, has_law, model_t
   use pose_types, only: pose_t
   use poses, only: place_links
   use reach_texts, only: reach_words
-  use sorting, only: ascending_order
   use text, only: plural, to_string
   use value_lists, only: value_list_t
   implicit none (type, external)
@@ -84,8 +82,7 @@ contains
 
     words = ""
     drawn = starting_cranks(model, mechanism%linkage)
-    limits = reachable_intervals(model, mechanism, [pack(crank%value, closes), drawn(:1)], &
-      crank%value)
+    limits = reachable_intervals(mechanism, [pack(crank%value, closes), drawn(:1)], crank%value)
     if (size(limits) == 0) return
     words = "; the linkage closes "//interval_words(model, limits)
     if (.not. any(closes) .and. any(mechanism%linkage%drawing%is_drawn .and. .not. &
@@ -95,8 +92,7 @@ contains
   end subroutine say_where
 
   !> The intervals of the first drive in which a linkage closes, in the turns of some positions.
-  pure function reachable_intervals(model, mechanism, inside, positions) result(limits)
-    type(model_t), intent(in) :: model          !! of the mechanism
+  pure function reachable_intervals(mechanism, inside, positions) result(limits)
     type(mechanism_t), intent(in) :: mechanism  !! any
     real(wp), intent(in) :: inside(:)           !! of a driven length intervals about these are
                                                 !! found [deg] or [m]
@@ -104,22 +100,12 @@ contains
     real(wp), allocatable :: limits(:, :)       !! (2, intervals), none if it turns fully
 
     type(crank_range_t), allocatable :: ranges(:)
-    real(wp), allocatable :: room(:, :)
-    integer :: r, filled
 
-    call find_ranges(mechanism%linkage, inside, ranges)
-    allocate (room(2, size(ranges)))
-    filled = 0
-    do r = 1, size(ranges)
-      if (ranges(r)%turns) cycle
-      filled = filled + 1
-      if (drives_length(model)) then
-        room(:, filled) = [ranges(r)%from, ranges(r)%to]
-      else
-        room(:, filled) = in_turns_of(ranges(r), period_of(mechanism%linkage), positions)
-      end if
-    end do
-    limits = room(:, ascending_order(room(1, :filled)))
+    call find_ranges_of_deck(mechanism%linkage, inside, positions, ranges)
+    ranges = pack(ranges, .not. ranges%turns)
+    allocate (limits(2, size(ranges)))
+    limits(1, :) = ranges%from
+    limits(2, :) = ranges%to
   end function reachable_intervals
 
   !> `between -83.1 and 83.1 deg and between 110 and 140 deg`
