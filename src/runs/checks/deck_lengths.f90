@@ -7,7 +7,7 @@ module deck_lengths
   implicit none (type, external)
   private
 
-  public :: in_deck, length_text, crank_text, unit_of_crank
+  public :: in_deck, length_text, missing_text, crank_text, unit_of_crank
 
 contains
 
@@ -32,6 +32,16 @@ contains
     measure = coherent_unit(model%units, dimension_length)
     words = to_string(in_deck(model, length), digits)//" "//measure%name
   end function length_text
+
+  !> `12.5 mm too short`
+  pure function missing_text(model, missing) result(words)
+    type(model_t), intent(in) :: model !! as read
+    real(wp), intent(in) :: missing    !! by how much a length is too short; negative: too long [m]
+    character(len=:), allocatable :: words
+
+    words = length_text(model, abs(missing), 6)//" too "//trim(merge("short", "long ", &
+      missing > 0.0_wp))
+  end function missing_text
 
   !> The unit of the positions of the first drive in the deck.
   pure function unit_of_crank(model) result(unit)

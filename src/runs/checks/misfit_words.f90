@@ -1,7 +1,7 @@
 !> What a redundant equation is about, as its card names it, and by how much it is not fulfilled.
 module misfit_words
   use constants, only: degree
-  use deck_lengths, only: length_text
+  use deck_lengths, only: length_text, missing_text
   use joint_cards, only: weld_t
   use kinds, only: wp
   use linkages, only: demands_angle, demands_length, demands_line, equation_t
@@ -92,7 +92,7 @@ contains
     words = amount_text(model, mechanism, equation, misfit)
     select case (equation%kind)
     case (demands_length)
-      words = words//" too "//trim(merge("short", "long ", misfit > 0.0_wp))
+      words = missing_text(model, misfit)
     case (demands_angle)
       words = words//" aside of pin '"//mechanism%pin_names(equation%pin)%text//"'"
     case (demands_line)

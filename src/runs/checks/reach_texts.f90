@@ -1,6 +1,6 @@
 !> What a linkage reaches, in words: for messages about a deck and for failed rows.
 module reach_texts
-  use deck_lengths, only: length_text
+  use deck_lengths, only: missing_text
   use errors, only: error_t
   use kinds, only: wp
   use mechanisms, only: mechanism_t
@@ -60,8 +60,7 @@ contains
         "redundant") > 0))
       return
     end if
-    words = words//" "//length_text(model, abs(error%missing), 6)//" too "//trim(merge("short", &
-      "long ", error%missing > 0.0_wp))
+    words = words//" "//missing_text(model, error%missing)
   end function reach_words
 
 end module reach_texts
