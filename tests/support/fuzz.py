@@ -47,7 +47,7 @@ OPTIONS = [
 
 RUN_TIME = re.compile(r"Fortran runtime|Backtrace|SIG[A-Z]{3}|At line \d+ of file|Sanitizer|free\(\)|malloc|double free|stack smash")
 # A response of a whole turn fails at a speed, without a position; intervals of stability in a range of speeds; a variant whole.
-FAILURE = re.compile(r"^d\.deck: error: (.*(crank \S+ (deg|" + "|".join(LENGTHS) + r")|, speeds? (\S+ to )?\S+ (rad/s|rpm))|\S+=\S+( \S+=\S+)*): .",
+FAILURE = re.compile(r"^d\.deck: error: (.*(crank (\S+ to )?\S+ (deg|" + "|".join(LENGTHS) + r")(, \d+ positions)?|, speeds? (\S+ to )?\S+ (rad/s|rpm))|\S+=\S+( \S+=\S+)*): .",
                      re.MULTILINE)
 NOT_A_NUMBER = re.compile(r"\b(?:NaN|[-+]?Inf(?:inity)?)\b|\*{4,}|is not a number$")
 REAL = re.compile(r"-?\d\.\d+E[-+]\d{3}$")

@@ -7,8 +7,7 @@ module echo
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
   use link_cards, only: has_own_mass
-  use models, only: branch_crossed, has_law, is_four_bar, link_mass, model_t, &
-    rule_at_change_points
+  use models, only: branch_crossed, has_law, is_four_bar, link_mass, model_t
   use response_cards, only: response_form
   use sections, only: shape_channel
   use shear, only: link_rotary_inertia, link_shear_stiffness, shear_coefficient
@@ -73,7 +72,7 @@ contains
     case ("BRANCH")
       ! Other linkages have none; that of a four-bar may come from the drawing. With a card every
       ! position would keep its side at change points.
-      if (is_four_bar(model) .and. rule_at_change_points(model) == model%drives(1)%change_points) &
+      if (is_four_bar(model) .and. all(model%drives%change_points /= 0)) &
         call append_default_text(buffer, model, trim(kind%keyword), trim(merge("crossed", &
         "open   ", model%branch == branch_crossed)))
     case ("SPEED")
