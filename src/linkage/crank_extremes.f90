@@ -1,12 +1,13 @@
 !> The least and the greatest value, over a range of the first drive, of quantities of a linkage.
 module crank_extremes
+  use bridges, only: node_weights
   use constants, only: degree
   use crank_limits, only: crank_range_t
   use errors, only: error_t
   use group_equations, only: line_axis, line_offset, world_line
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
-  use linkages, only: cross, groups_driven_dyad, groups_dyad, linkage_t, normal_to
+  use linkages, only: cross, linkage_t, normal_to
   use pose_types, only: pose_t
   use poses, only: body_angle, dead_point_sine, place_links, transmission_angle
   implicit none (type, external)
@@ -46,7 +47,7 @@ module crank_extremes
   integer, parameter :: most_halvings = 80
 
   !> What changes less than by rounding is constant: angles [deg], places as a share of the links.
-  real(wp), parameter :: constant_angle = 1.0e-10_wp, constant_place = 1.0e-12_wp
+  real(wp), parameter :: constant_angle = 1.0e-9_wp, constant_place = 1.0e-11_wp
 
 contains
 
@@ -60,7 +61,8 @@ contains
     type(walk_t) :: walks(size(quantities))
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: coefficients
-    real(wp) :: c, value, rate
+    real(wp), dimension(size(quantities)) :: value, rate
+    real(wp) :: c
     logical :: is_fine
     integer :: i, q
 
@@ -69,9 +71,11 @@ contains
       call place(linkage, c, pose, coefficients, is_fine)
       if (.not. is_fine .and. .not. (i == 0 .or. i == range%samples)) cycle
       do q = 1, size(quantities)
-        call measure(linkage, quantities(q), pose, coefficients, value, rate)
-        if (.not. is_fine) call evaluate_end(linkage, quantities(q), range, c, value)
-        call go_on(linkage, quantities(q), c, value, rate, is_fine, walks(q), extremes(q))
+        call measure(linkage, quantities(q), pose, coefficients, value(q), rate(q))
+      end do
+      if (.not. is_fine) call look_ahead(linkage, quantities, range, i == 0, value)
+      do q = 1, size(quantities)
+        call go_on(linkage, quantities(q), c, value(q), rate(q), is_fine, walks(q), extremes(q))
       end do
     end do
     do q = 1, size(quantities)
@@ -88,7 +92,7 @@ contains
     type(walk_t), intent(inout) :: walk
     type(extremes_t), intent(inout) :: extremes
 
-    real(wp) :: here, low, high, low_rate, middle, middle_value, middle_rate
+    real(wp) :: here, low, high, low_rate, middle, middle_value, middle_rate, tried
     logical :: is_middle_fine
     integer :: k
 
@@ -113,8 +117,9 @@ contains
       do k = 1, most_halvings
         middle = 0.5_wp*(low + high)
         if (abs(high - low) <= 2.0_wp*spacing(abs(middle))) exit
-        call evaluate(linkage, quantity, middle, middle_value, middle_rate, is_middle_fine)
+        call evaluate(linkage, quantity, middle, tried, middle_rate, is_middle_fine)
         if (.not. is_middle_fine) exit
+        middle_value = tried
         if (middle_rate*low_rate > 0.0_wp) then
           low = middle
         else
@@ -155,45 +160,52 @@ contains
     extremes%reversals = 0
   end subroutine finish
 
-  !> A quantity at an end of a range, where there is no rate. Where the pins that carry a dyad come
-  !! together there, its direction is rounding: the value is that to which those inside lead.
-  pure subroutine evaluate_end(linkage, quantity, range, c, value)
+  !> Quantities at an end of a range where there is no rate: those to which places inside lead.
+  !! There solving loses half the digits, and where the pins that carry a dyad meet its direction is
+  !! rounding; but all is smooth in the root of the distance from a limit.
+  pure subroutine look_ahead(linkage, quantities, range, is_first, value)
     type(linkage_t), intent(in) :: linkage
-    type(quantity_t), intent(in) :: quantity
+    type(quantity_t), intent(in) :: quantities(:)
     type(crank_range_t), intent(in) :: range
-    real(wp), intent(in) :: c        !! the end
-    real(wp), intent(inout) :: value !! as placed there
+    logical, intent(in) :: is_first          !! the end is the lower one
+    real(wp), intent(inout) :: value(:)      !! (quantities) as placed there
 
-    !> So near bases have no direction, as a share of the links.
-    real(wp), parameter :: together = 1.0e-6_wp
-    !> How far inside, as a share of the range.
-    real(wp), parameter :: inside = 1.0e-4_wp
+    integer, parameter :: nodes = 8
+    !> Roots of the distance of the nearest place, as shares of the range: nearer places are
+    !! rounded more, with others the polynomial is less exact.
+    real(wp), parameter :: nearest(*) = [0.01_wp, 0.02_wp, 0.04_wp]
     type(pose_t) :: pose
-    type(error_t), allocatable :: error
-    real(wp) :: way, near(3), rate
-    logical :: is_fine, meets
-    integer :: g, k
+    type(kinematic_coefficients_t) :: coefficients
+    real(wp) :: near(nodes, size(value)), root(nodes), weight(nodes, 0:2), fewer(nodes - 1, 0:2), &
+      found, error, least(size(value)), rate, way
+    logical :: is_fine
+    integer :: i, k, q
 
-    call place_links(linkage, c, pose, error)
-    meets = allocated(error)
-    do g = 1, size(linkage%groups)
-      if (meets) exit
-      associate (group => linkage%groups(g))
-        if (.not. any(group%kind == [groups_dyad, groups_driven_dyad])) cycle
-        meets = norm2(pose%pin(:, group%base(2)) - pose%pin(:, group%base(1))) < &
-          together*maxval(linkage%bodies(group%body)%length)
-      end associate
+    least = huge(1.0_wp)
+    do i = 1, size(nearest)
+      root = [(nearest(i)*k, k=1, nodes)]
+      do k = 1, nodes
+        way = (range%to - range%from)*root(k)**2
+        call place(linkage, merge(range%from + way, range%to - way, is_first), pose, coefficients, &
+          is_fine)
+        if (.not. is_fine) exit
+        do q = 1, size(value)
+          call measure(linkage, quantities(q), pose, coefficients, near(k, q), rate)
+          near(k, q) = unwrapped(quantities(q), near(k, q), near(1, q))
+        end do
+      end do
+      if (.not. is_fine) cycle
+      weight = node_weights(root, 0.0_wp)
+      fewer = node_weights(root(:nodes - 1), 0.0_wp)
+      do q = 1, size(value)
+        found = dot_product(weight(:, 0), near(:, q))
+        error = abs(found - dot_product(fewer(:, 0), near(:nodes - 1, q)))
+        if (error >= least(q)) cycle
+        least(q) = error
+        value(q) = found
+      end do
     end do
-    if (.not. meets) return
-    way = inside*(range%to - range%from)
-    if (abs(c - range%to) < abs(c - range%from)) way = -way
-    do k = 1, 3
-      call evaluate(linkage, quantity, c + k*way, near(k), rate, is_fine)
-      if (.not. is_fine) return
-      near(k) = unwrapped(quantity, near(k), near(1))
-    end do
-    value = 3.0_wp*(near(1) - near(2)) + near(3)
-  end subroutine evaluate_end
+  end subroutine look_ahead
 
   pure subroutine take(extremes, c, value)
     type(extremes_t), intent(inout) :: extremes

@@ -73,7 +73,8 @@ contains
       pose%direction(:, dyad%body(k)) = merge(1.0_wp, -1.0_wp, &
         linkage%bodies(dyad%body(k))%last_pin == dyad%middle)*arm(:, k)
     end do
-    sine = cross(arm(:, 1), arm(:, 2))
+    ! At the limit, or beyond it by rounding, what is left of a sine is noise.
+    if (four_areas_squared > 0.0_wp) sine = cross(arm(:, 1), arm(:, 2))
   end subroutine place_dyad
 
 end module dyad_places

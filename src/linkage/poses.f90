@@ -7,8 +7,8 @@ module poses
   use group_equations, only: drive_direction
   use group_places, only: improve_group, place_group
   use kinds, only: wp
-  use linkages, only: group_t, groups_by_newton, groups_dyad, is_dyad_linkage, linkage_t, &
-    normal_to, path_t, reference_point, turned
+  use linkages, only: bridge_t, group_t, groups_by_newton, groups_dyad, is_dyad_linkage, &
+    linkage_t, normal_to, path_t, reference_point, turned
   use pose_types, only: pose_t
   use redundancies, only: refuse_misfit
   use text, only: to_string
@@ -145,10 +145,15 @@ contains
         associate (limit => path%limits(k))
           if (at < limit%from - slack(path) .or. at > limit%to + slack(path)) cycle
           call cross_bridge(linkage, limit, min(max(at, limit%from), limit%to), pose)
-          if (at < limit%from .or. at > limit%to) pose%sine(limit%group) = 0.0_wp
+          pose%crank = crank
+          if (at < limit%from .or. at > limit%to) then
+            pose%sine(limit%group) = 0.0_wp
+          else
+            call improve_near_limit(linkage, limit, pose)
+          end if
         end associate
-        pose%crank = crank
-        if (any(abs(pose%sine) < dead_point_sine)) deallocate (pose%coefficients)
+        if (any(abs(pose%sine) < dead_point_sine) .and. allocated(pose%coefficients)) &
+          deallocate (pose%coefficients)
         return
       end do
       call start_on_path(path, at, pose, side, allowed, error)
@@ -175,6 +180,30 @@ contains
     if (correction > allowed) call set_error(error, error_of_numerics, &
       "the position was not found by iterations: they left the path")
   end subroutine place_parts
+
+  !> Solves for a pose that polynomials gave, where that loses fewer digits than they do.
+  pure subroutine improve_near_limit(linkage, limit, pose)
+    type(linkage_t), intent(in) :: linkage !! with groups
+    type(bridge_t), intent(in) :: limit    !! by whose polynomials
+    type(pose_t), intent(inout) :: pose    !! pins from `reference_point`
+
+    !> Rounding of polynomials; what is this near is the same assembly, as a share of the
+    !! determinant: the other one is twice as far as a determinant of 1 is.
+    real(wp), parameter :: rounding = 1.0e-12_wp, near = 0.1_wp
+    type(pose_t) :: solved
+    type(error_t), allocatable :: error
+    real(wp) :: correction
+
+    associate (sine => abs(pose%sine(limit%group)), usual => linkage%groups(limit%group)%usual)
+      if (sine*usual*max(limit%error, rounding) <= epsilon(1.0_wp)) return
+      solved = pose
+      deallocate (solved%coefficients)
+      call place_groups(linkage, pose%crank, solved, correction, error, sign(1.0_wp, pose%sine))
+      if (allocated(error)) return
+      if (maxval(abs(solved%pin - pose%pin)) > near*sine*maxval(linkage%bodies%length)) return
+    end associate
+    pose = solved
+  end subroutine improve_near_limit
 
   !> Places the crank, and group after group. Positions are relative to `reference_point`, so that a
   !! far-off origin of the drawing costs no digits.
