@@ -10,7 +10,7 @@ module bridges
   implicit none (type, external)
   private
 
-  public :: place_on_path, bridge_at, cross_bridge, node_weights
+  public :: place_on_path, bridge_at, cross_bridge, change_of, thinned, node_weights
 
 contains
 
@@ -45,26 +45,19 @@ contains
   end function bridge_at
 
   !> The pose at a place of a bridge, with its kinematic coefficients.
-  pure subroutine cross_bridge(linkage, bridge, crank, pose, least, most)
+  pure subroutine cross_bridge(linkage, bridge, crank, pose)
     type(linkage_t), intent(in) :: linkage !! its drives
     type(bridge_t), intent(in) :: bridge   !! of this linkage
     real(wp), intent(in) :: crank          !! between its nodes [deg] or [m]
     type(pose_t), intent(out) :: pose      !! pins from `reference_point`
-    integer, intent(in), optional :: least, most !! nodes that are used; absent: all
 
-    real(wp) :: d(2, 0:2), length
-    real(wp), allocatable :: weight(:, :)
-    integer :: first, last, b, p, k
+    real(wp) :: weight(size(bridge%crank), 0:2), d(2, 0:2), length
+    integer :: b, p, k
 
-    first = 1
-    last = size(bridge%crank)
-    if (present(least)) first = least
-    if (present(most)) last = most
-    allocate (weight(last - first + 1, 0:2))
     if (bridge%by_sine) then
-      weight = weights_by_sine(bridge, first, last, crank)
+      weight = weights_by_sine(bridge, crank)
     else
-      weight = node_weights(bridge%crank(first:last), crank)
+      weight = node_weights(bridge%crank, crank)
     end if
     ! Derivatives are per radian.
     if (linkage%drives(1)%kind == drives_angle) then
@@ -78,13 +71,13 @@ contains
       allocate (pose%pin(2, pins), it%pin(2, pins), it%pin_slope(2, pins))
       allocate (pose%direction(2, bodies), it%turn(bodies), it%turn_slope(bodies))
       do p = 1, pins
-        pose%pin(:, p) = matmul(bridge%pin(:, p, first:last), weight(:, 0))
-        it%pin(:, p) = matmul(bridge%pin(:, p, first:last), weight(:, 1))
-        it%pin_slope(:, p) = matmul(bridge%pin(:, p, first:last), weight(:, 2))
+        pose%pin(:, p) = matmul(bridge%pin(:, p, :), weight(:, 0))
+        it%pin(:, p) = matmul(bridge%pin(:, p, :), weight(:, 1))
+        it%pin_slope(:, p) = matmul(bridge%pin(:, p, :), weight(:, 2))
       end do
       do b = 1, bodies
         do k = 0, 2
-          d(:, k) = matmul(bridge%direction(:, b, first:last), weight(:, k))
+          d(:, k) = matmul(bridge%direction(:, b, :), weight(:, k))
         end do
         length = norm2(d(:, 0))
         d = d/length
@@ -93,28 +86,64 @@ contains
         it%turn_slope(b) = cross(d(:, 0), d(:, 2))
       end do
     end associate
-    pose%sine = matmul(bridge%sine(:, first:last), weight(:, 0))
+    pose%sine = matmul(bridge%sine, weight(:, 0))
   end subroutine cross_bridge
+
+  !> Where on a bridge the determinant of a group is zero, by halving.
+  pure function change_of(linkage, bridge, group) result(change)
+    type(linkage_t), intent(in) :: linkage !! its drives
+    type(bridge_t), intent(in) :: bridge   !! on whose sides this determinant has two signs
+    integer, intent(in) :: group           !! number, from 1
+    real(wp) :: change                     !! [deg] or [m]
+
+    type(pose_t) :: pose
+    real(wp) :: ends(2)
+    integer :: i, middle
+
+    middle = size(bridge%crank)/2
+    ends = bridge%crank(middle:middle + 1)
+    do i = 1, 60
+      change = 0.5_wp*sum(ends)
+      call cross_bridge(linkage, bridge, change, pose)
+      ends(merge(1, 2, pose%sine(group)*bridge%sine(group, middle) > 0.0_wp)) = change
+    end do
+  end function change_of
+
+  !> A bridge without its outermost nodes. By how much its places differ is an estimate of the error
+  !! of the whole one.
+  pure function thinned(bridge) result(fewer)
+    type(bridge_t), intent(in) :: bridge !! towards a limit the last node is nearest to it
+    type(bridge_t) :: fewer
+
+    integer :: last
+
+    fewer = bridge
+    last = size(bridge%crank) - merge(0, 1, bridge%by_sine)
+    fewer%crank = bridge%crank(2:last)
+    fewer%pin = bridge%pin(:, :, 2:last)
+    fewer%direction = bridge%direction(:, :, 2:last)
+    fewer%sine = bridge%sine(:, 2:last)
+  end function thinned
 
   !> Weights of the values at nodes in the value and the derivatives by the coordinate, of
   !! polynomials in the determinant of a group: c(σ) is the coordinate, d/dc = (d/dσ)/c′, and
   !! d²/dc² = (d²/dσ² − c″ d/dc)/c′². At the limit itself there are no derivatives: they are 0.
-  pure function weights_by_sine(bridge, first, last, crank) result(weight)
+  pure function weights_by_sine(bridge, crank) result(weight)
     type(bridge_t), intent(in) :: bridge
-    integer, intent(in) :: first, last !! nodes
     real(wp), intent(in) :: crank      !! between the last node and the limit [deg] or [m]
-    real(wp) :: weight(last - first + 1, 0:2)
+    real(wp) :: weight(size(bridge%crank), 0:2)
 
-    real(wp) :: node(last - first + 1), c(0:2), sine, step
-    integer :: i
+    real(wp) :: node(size(bridge%crank)), c(0:2), sine, step
+    integer :: i, last
 
-    node = bridge%sine(bridge%group, first:last)
+    node = bridge%sine(bridge%group, :)
+    last = size(node)
     sine = 0.0_wp
     if (abs(bridge%change - crank) > 0.0_wp) sine = node(size(node))*sqrt(min(1.0_wp, abs(( &
       bridge%change - crank)/(bridge%change - bridge%crank(last)))))
     do i = 1, 20
       weight = node_weights(node, sine)
-      c = matmul(bridge%crank(first:last) - bridge%change, weight)
+      c = matmul(bridge%crank - bridge%change, weight)
       if (.not. abs(c(1)) > 0.0_wp .or. .not. abs(sine) > 0.0_wp) exit
       step = (bridge%change + c(0) - crank)/c(1)
       ! Between the limit and the last node, but for rounding.
@@ -123,7 +152,7 @@ contains
       if (abs(step) <= 2.0_wp*spacing(sine)) exit
     end do
     weight = node_weights(node, sine)
-    c = matmul(bridge%crank(first:last) - bridge%change, weight)
+    c = matmul(bridge%crank - bridge%change, weight)
     if (abs(sine) > 0.0_wp .and. abs(c(1)) > 0.0_wp) then
       weight(:, 1) = weight(:, 1)/c(1)
       weight(:, 2) = (weight(:, 2) - c(2)*weight(:, 1))/c(1)**2

@@ -6,7 +6,7 @@
 !! redundant links too; where the bridge does not, there is no change point but a limit, or a way
 !! that turns sharply.
 module change_points
-  use bridges, only: cross_bridge
+  use bridges, only: change_of, cross_bridge, thinned
   use group_equations, only: misfit_of
   use kinds, only: wp
   use linkages, only: bridge_t, cross, demands_line, demands_turn, equation_t, linkage_t
@@ -21,21 +21,37 @@ module change_points
   !> Equations depend on each other where a determinant is below this share of its usual size.
   real(wp), parameter :: near = 0.02_wp
 
+  !> The ends of a bridge may stand nearer by so many halvings: the narrower the zone, the better
+  !! its polynomial, but the more the places at its ends are rounded.
+  integer, parameter :: most_halvings = 4
+
+  !> A bridge with less error is as good as it can be.
+  real(wp), parameter :: least_error = 1.0e-12_wp
+
   !> Nodes of a bridge on each side.
   integer, parameter :: nodes = 6
 
-  !> A bridge stands on the equations to this share of the size of the linkage.
-  real(wp), parameter :: most_gap = 1.0e-9_wp
+  !> A bridge stands if its places are as exact as this, as a share of the size of the linkage:
+  !! links that fit well enough, to 1e-9, move its ends by as much more as these are near.
+  real(wp), parameter :: most_error = 2.0e-8_wp
+
+  !> So much more than errors of places count gaps in the equations, which are misfits themselves.
+  real(wp), parameter :: weight_of_gaps = 2.0_wp
 
 contains
 
   !> Whether some group is near a point where its equations depend on each other.
-  pure function is_near_change(sine, usual) result(is)
-    real(wp), intent(in) :: sine(:)  !! (groups) as in `pose_t`
-    real(wp), intent(in) :: usual(:) !! (groups) its largest size so far
+  pure function is_near_change(sine, usual, closer) result(is)
+    real(wp), intent(in) :: sine(:)           !! (groups) as in `pose_t`
+    real(wp), intent(in) :: usual(:)          !! (groups) its largest size so far
+    integer, intent(in), optional :: closer   !! by so many halvings; absent: by none
     logical :: is
 
-    is = any(abs(sine) < near*usual)
+    real(wp) :: share
+
+    share = near
+    if (present(closer)) share = near/2.0_wp**closer
+    is = any(abs(sine) < share*usual)
   end function is_near_change
 
   !> Looks for a change point in the next steps, and for the bridge over it.
@@ -52,38 +68,55 @@ contains
     type(station_t), intent(out) :: last, next !! its ends, in the sense of the way
     logical, intent(out) :: found
 
-    type(station_t) :: far
+    type(station_t) :: before, far, behind
     type(bridge_t) :: tried
-    real(wp) :: width, spacing
-    integer :: k
+    !> On a narrower bridge rates are less exact: its places have to be more so.
+    real(wp), parameter :: gain = 0.3_wp
+    real(wp) :: width, spacing, worth
+    logical :: crosses
+    integer :: closer, k
 
-    call approach(linkage, station, step, unit, usual, last)
-    call cross_over(linkage, last, step, unit, usual, far, width, found)
-    if (.not. found) return
-    call approach(linkage, far, last%crank - far%crank, unit, usual, next)
     bridge%error = huge(1.0_wp)
-    ! The best spacing is not known beforehand: wide zones want wide ones.
-    spacing = 0.5_wp*max(step, width, -step, -width)
-    spacing = sign(spacing, step)
-    do k = 1, 7
-      call build(linkage, last, next, spacing, unit, span, origin, tried)
-      if (tried%error < bridge%error) bridge = tried
-      spacing = 0.5_wp*spacing
+    before = station
+    do closer = 0, most_halvings
+      if (is_near_change(station%pose%sine, usual, closer)) cycle
+      far = before
+      call approach(linkage, far, step, unit, usual, closer, before)
+      ! Steps may have failed for another reason, or the zone may be wide enough.
+      if (.not. is_near_change(before%pose%sine, usual, closer - 1)) exit
+      call cross_over(linkage, before, step, unit, usual, closer, far, width, crosses)
+      if (.not. crosses) cycle
+      call approach(linkage, far, before%crank - far%crank, unit, usual, closer, behind)
+      ! The best spacing is not known beforehand: wide zones want wide ones.
+      spacing = sign(0.5_wp*max(abs(step), abs(width)), step)
+      worth = gain*bridge%error
+      do k = 1, 7
+        call build(linkage, before, behind, spacing, unit, span, origin, tried)
+        if (tried%error < worth) then
+          worth = tried%error
+          bridge = tried
+          last = before
+          next = behind
+        end if
+        spacing = 0.5_wp*spacing
+      end do
+      if (bridge%error <= least_error) exit
     end do
-    found = bridge%error <= most_gap
+    found = bridge%error <= most_error
     if (.not. found) return
     bridge%group = maxloc(merge(1.0_wp, 0.0_wp, last%pose%sine*next%pose%sine < 0.0_wp), dim=1)
-    call find_zero(linkage, bridge)
+    bridge%change = change_of(linkage, bridge, bridge%group)
   end subroutine find_bridge
 
   !> Over the change point: the polynomial through places before it leads to one behind, where
   !! equations are independent again. How far it is, is known from the rate of the determinant.
-  pure subroutine cross_over(linkage, last, step, unit, usual, far, width, found)
+  pure subroutine cross_over(linkage, last, step, unit, usual, closer, far, width, found)
     type(linkage_t), intent(in) :: linkage
     type(station_t), intent(in) :: last  !! where equations are still independent
     real(wp), intent(in) :: step         !! along the way, with its sign
     real(wp), intent(in) :: unit
     real(wp), intent(in) :: usual(:)
+    integer, intent(in) :: closer
     type(station_t), intent(out) :: far  !! behind it
     real(wp), intent(out) :: width       !! estimated, from here to the change point
     logical, intent(out) :: found
@@ -94,29 +127,30 @@ contains
     type(station_t) :: before
     type(bridge_t) :: behind
     type(pose_t) :: expected
-    real(wp) :: small
+    real(wp) :: small, rate
     logical :: is_good
     integer :: group, i, k
 
     found = .false.
     width = step
-    group = minloc(abs(last%pose%sine)/usual, dim=1)
+    group = minloc(abs(last%pose%sine)/max(usual, tiny(1.0_wp)), dim=1)
     small = 1.0e-3_wp*step
     call take_step(linkage, last, -small, unit, before, is_good)
     if (.not. is_good) return
-    width = small*last%pose%sine(group)/(before%pose%sine(group) - last%pose%sine(group))
+    rate = (before%pose%sine(group) - last%pose%sine(group))/small
+    if (.not. abs(rate) > 0.0_wp) return
+    width = last%pose%sine(group)/rate
     if (width/step <= 0.0_wp .or. abs(width) > most_steps*abs(step)) return
-    ! Places before, ever closer if they are not on the way.
+    ! Places before, ever closer if they are not on the way or do not lead over.
     do k = 1, 4
       call look_back(linkage, last, -width*0.5_wp**k, unit, behind, is_good)
-      if (is_good) exit
-    end do
-    if (.not. is_good) return
-    do i = 1, size(ways)
-      call cross_bridge(linkage, behind, last%crank + ways(i)*width, expected)
-      call step_to(linkage, last, last%crank + ways(i)*width, expected, far, found)
-      if (found) found = .not. is_near_change(far%pose%sine, usual)
-      if (found) return
+      if (.not. is_good) cycle
+      do i = 1, size(ways)
+        call cross_bridge(linkage, behind, last%crank + ways(i)*width, expected)
+        call step_to(linkage, last, last%crank + ways(i)*width, expected, far, found)
+        if (found) found = .not. is_near_change(far%pose%sine, usual, closer)
+        if (found) return
+      end do
     end do
   end subroutine cross_over
 
@@ -147,16 +181,17 @@ contains
   end subroutine make_room
 
   !> As far ahead as equations are independent.
-  pure subroutine approach(linkage, station, ahead, unit, usual, last)
+  pure subroutine approach(linkage, station, ahead, unit, usual, closer, last)
     type(linkage_t), intent(in) :: linkage
     type(station_t), intent(in) :: station
     real(wp), intent(in) :: ahead !! beyond that, with its sign
     real(wp), intent(in) :: unit
     real(wp), intent(in) :: usual(:)
+    integer, intent(in) :: closer
     type(station_t), intent(out) :: last
 
     type(station_t) :: next
-    integer, parameter :: most_halvings = 12
+    integer, parameter :: most_tries = 12
     real(wp) :: way
     logical :: is_good
     integer :: i
@@ -164,9 +199,9 @@ contains
     last = station
     way = ahead
     i = 0
-    do while (i < most_halvings)
+    do while (i < most_tries)
       call take_step(linkage, last, way, unit, next, is_good)
-      if (is_good) is_good = .not. is_near_change(next%pose%sine, usual) .and. &
+      if (is_good) is_good = .not. is_near_change(next%pose%sine, usual, closer) .and. &
         (next%crank - station%crank)/ahead < 1.0_wp
       if (is_good) then
         last = next
@@ -189,6 +224,7 @@ contains
     type(bridge_t), intent(out) :: bridge
 
     integer, parameter :: probes = 5
+    type(bridge_t) :: narrow
     type(pose_t) :: all_nodes, fewer
     real(wp) :: at, error
     logical :: is_good
@@ -206,14 +242,15 @@ contains
       if (is_good) call place_nodes(linkage, last, -spacing, unit, nodes + 1, 1, bridge, is_good)
     end if
     if (.not. is_good) return
+    narrow = thinned(bridge)
     error = 0.0_wp
     do i = 1, probes
       at = bridge%from + (bridge%to - bridge%from)*i/(probes + 1)
       call cross_bridge(linkage, bridge, at, all_nodes)
-      call cross_bridge(linkage, bridge, at, fewer, 2, 2*nodes - 1)
+      call cross_bridge(linkage, narrow, at, fewer)
       error = max(error, maxval(abs(all_nodes%pin - fewer%pin))/span, &
         maxval(abs(all_nodes%direction - fewer%direction)), &
-        largest_gap(linkage, all_nodes, origin, at)/span)
+        weight_of_gaps*largest_gap(linkage, all_nodes, origin, at)/span)
     end do
     bridge%error = error
   end subroutine build
@@ -248,24 +285,6 @@ contains
       end associate
     end do
   end subroutine place_nodes
-
-  !> The change point: where the determinant of the group is zero, by halving.
-  pure subroutine find_zero(linkage, bridge)
-    type(linkage_t), intent(in) :: linkage
-    type(bridge_t), intent(inout) :: bridge
-
-    type(pose_t) :: pose
-    real(wp) :: ends(2), first
-    integer :: i
-
-    ends = bridge%crank(nodes:nodes + 1)
-    first = bridge%sine(bridge%group, nodes)
-    do i = 1, 60
-      bridge%change = 0.5_wp*sum(ends)
-      call cross_bridge(linkage, bridge, bridge%change, pose)
-      ends(merge(1, 2, pose%sine(bridge%group)*first > 0.0_wp)) = bridge%change
-    end do
-  end subroutine find_zero
 
   !> The largest gap between what joints hold together [m]; angles count with the length of a body.
   pure function largest_gap(linkage, pose, origin, crank) result(gap)

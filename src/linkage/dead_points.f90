@@ -1,6 +1,6 @@
 !> Where in a range of the first drive a group comes nearest to a dead point.
 module dead_points
-  use bridges, only: bridge_at, place_on_path
+  use bridges, only: bridge_at, change_of, place_on_path
   use crank_limits, only: crank_range_t
   use errors, only: error_t
   use kinds, only: wp
@@ -89,17 +89,20 @@ contains
     type(low_point_t), allocatable, intent(inout) :: points(:)
 
     type(low_point_t) :: point
-    integer :: i
+    integer :: i, g
 
     if (.not. has_change_points(linkage)) return
-    associate (path => linkage%path)
-      do i = 1, size(path%bridges)
-        point = low_point_t(path%bridges(i)%group, path%bridges(i)%change, is_change=.true.)
-        if (path%period > 0.0_wp) point%crank = range%from + modulo(point%crank - range%from, &
-          path%period)
-        if (point%crank <= range%to) points = [points, point]
-      end do
-    end associate
+    do i = 1, size(linkage%path%bridges)
+      associate (bridge => linkage%path%bridges(i), period => linkage%path%period)
+        do g = 1, size(linkage%groups)
+          ! A bridge may lead over those of several groups.
+          if (bridge%sine(g, 1)*bridge%sine(g, size(bridge%crank)) > 0.0_wp) cycle
+          point = low_point_t(g, change_of(linkage, bridge, g), is_change=.true.)
+          if (period > 0.0_wp) point%crank = range%from + modulo(point%crank - range%from, period)
+          if (point%crank <= range%to) points = [points, point]
+        end do
+      end associate
+    end do
   end subroutine take_change_points
 
   pure logical function is_on_bridge(linkage, crank)

@@ -34,6 +34,12 @@ module linkage_paths
   !> A pose repeats an earlier one if all pins are this near, as a share of the linkage.
   real(wp), parameter :: same_pose = 1.0e-9_wp
 
+  !> Bridges may begin where determinants are halved so often from those at their usual ends.
+  integer, parameter :: nearest_start = 3
+
+  !> Dyads that close this share of a step beyond the end of a path are lost, not at a limit.
+  real(wp), parameter :: a_little = 1.0e-7_wp
+
   !> Farther from the drawing than this share of the linkage no assembly is what was drawn.
   real(wp), parameter :: drawing_reach = 0.2_wp
 
@@ -60,9 +66,6 @@ contains
   pure function period_of(linkage) result(period)
     type(linkage_t), intent(in) :: linkage !! its drives, and its path if it has one
     real(wp) :: period
-
-    integer :: turns, i
-    logical :: repeats
 
     period = 0.0_wp
     if (linkage%drives(1)%kind /= drives_angle) return
@@ -301,8 +304,8 @@ contains
     deallocate (linkage%path%crank)
   end subroutine leave_path
 
-  !> The first of some places where a linkage of dyads closes away from change points, or one beside
-  !! the first of them.
+  !> The first of some places where a linkage of dyads closes or, if a bridge cannot begin there,
+  !! one beside it, on the side on which it is of its change point.
   pure subroutine begin_at_place(linkage, starts, first, span, usual)
     type(linkage_t), intent(in) :: linkage
     real(wp), intent(in) :: starts(:)
@@ -311,38 +314,42 @@ contains
     real(wp), intent(inout) :: usual(:)   !! (groups) largest determinants there
 
     integer, parameter :: most_places = 100
-    real(wp), parameter :: beside(*) = [0.0_wp, 1.0_wp, -1.0_wp, 3.0_wp, -3.0_wp, 10.0_wp, &
-      -10.0_wp] !! [deg]
-    real(wp), allocatable :: places(:)
+    real(wp), parameter :: beside(*) = [1.0e-3_wp, 0.5_wp, 1.0_wp, 3.0_wp, 10.0_wp] !! [deg], or
+                                          !! hundredths of the longest link
     type(pose_t) :: pose, best
     type(error_t), allocatable :: error
-    real(wp) :: correction
-    integer :: i, number
+    real(wp) :: correction, start, unit
+    integer :: i, k, stride
 
     span = 0.0_wp
-    number = 0
-    ! The sides are those of the first: beside it other groups have not left them either.
-    places = starts(::1 + (size(starts) - 1)/most_places)
-    if (linkage%drives(1)%kind == drives_angle) places = [starts(1) + beside, places(2:)]
-    do i = 1, size(places)
-      call place_groups(linkage, places(i), pose, correction, error)
+    stride = 1 + (size(starts) - 1)/most_places
+    do i = 1 + stride*((size(starts) - 1)/stride), 1, -stride
+      call place_groups(linkage, starts(i), pose, correction, error)
       if (allocated(error)) then
         deallocate (error)
         cycle
       end if
       usual = max(usual, abs(pose%sine))
-      if (number == 0) then
-        number = i
-        best = pose
-      else if (is_near_change(best%sine, usual) .and. .not. is_near_change(pose%sine, usual)) then
-        number = i
-        best = pose
-      end if
+      best = pose
+      start = starts(i)
     end do
-    if (number == 0) return
+    if (.not. allocated(best%sine)) return
+    unit = 1.0_wp
+    if (linkage%drives(1)%kind /= drives_angle) unit = 0.01_wp*maxval(linkage%bodies%length)
+    k = minloc(abs(best%sine)/max(usual, tiny(1.0_wp)), dim=1)
+    do i = 1, size(beside)
+      if (.not. is_near_change(best%sine, usual, nearest_start)) exit
+      call place_groups(linkage, start + beside(i)*unit, pose, correction, error)
+      if (allocated(error)) exit
+      if (i == 1) then
+        if (abs(pose%sine(k)) < abs(best%sine(k))) unit = -unit
+        cycle
+      end if
+      best = pose
+    end do
     if (any(abs(best%sine) < dead_point_sine)) return
     span = linkage_span(linkage, best)
-    first = new_station(linkage, places(number), best)
+    first = new_station(linkage, best%crank, best)
   end subroutine begin_at_place
 
   !> The way from a place in both senses, or over a whole period.
@@ -414,7 +421,7 @@ contains
       call trim_path(path, stations)
       return
     end if
-    is_close = is_near_change(here%pose%sine, usual)
+    is_close = .false.
     do
       step = sense*most_step/2.0_wp**halvings
       if (is_angle) then
@@ -449,8 +456,11 @@ contains
       call watch(linkage, here, span, approach)
       if (approach%is_over) exit
       if (is_angle) then
-        if (abs(here%crank - goal) > 0.0_wp) cycle
-        if (repeats(here%pose, first%pose, span)) then
+        if (sense*(goal - here%crank) > 0.0_wp) cycle
+        pose = here%pose
+        ! A bridge may lead over the end of a turn.
+        if (abs(here%crank - goal) > 0.0_wp) call cross_bridge(linkage, bridge, goal, pose)
+        if (repeats(pose, first%pose, span)) then
           ! Whole turns to the last digit, wherever they start.
           path%period = turns*360.0_wp
           exit
@@ -466,7 +476,7 @@ contains
       path%limits(merge(2, 1, sense > 0.0_wp)) = approach%limit
     else if (through .and. halvings > most_halvings .and. .not. has_iterations(linkage)) then
       pose = here%pose
-      call place_groups(linkage, here%crank + 1.0e-3_wp*sense*most_step, pose, correction, error, &
+      call place_groups(linkage, here%crank + a_little*sense*most_step, pose, correction, error, &
         sign(1.0_wp, here%pose%sine))
       path%is_lost(merge(2, 1, sense > 0.0_wp)) = .not. allocated(error)
     end if

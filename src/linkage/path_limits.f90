@@ -4,7 +4,7 @@
 !! distance from it: but both are smooth functions of the determinant. Polynomials in it, through
 !! places before the limit, lead to the limit itself; solving there would lose half the digits.
 module path_limits
-  use bridges, only: cross_bridge, node_weights
+  use bridges, only: cross_bridge, node_weights, thinned
   use constants, only: degree
   use kinds, only: wp
   use linkages, only: bridge_t, drives_angle, linkage_t
@@ -41,10 +41,17 @@ contains
 
     !> Farther away no limit is in sight; nearer no digit is gained.
     real(wp), parameter :: in_sight = 0.1_wp, at_hand = 3.0e-5_wp
+    !> Ratio of determinants up to which they are alike.
+    real(wp), parameter :: at_once = 1.001_wp
     real(wp) :: last
     integer :: group
 
     group = minloc(abs(station%pose%sine), dim=1)
+    ! Several may come to it at once.
+    if (approach%group > 0) then
+      if (abs(station%pose%sine(approach%group)) <= at_once*abs(station%pose%sine(group))) &
+        group = approach%group
+    end if
     associate (sine => abs(station%pose%sine(group)))
       if (group /= approach%group .or. sine > in_sight) call leave(approach)
       approach%group = group
@@ -83,7 +90,7 @@ contains
     !> Errors of the limit, and of places there, from polynomials through fewer nodes: as a share of
     !! the size of the linkage, or in radians. Those of places count less.
     real(wp), parameter :: most_error = 1.0e-11_wp, weight_of_places = 1.0e-3_wp
-    type(bridge_t) :: limit
+    type(bridge_t) :: limit, fewer_nodes
     type(pose_t) :: pose, other
     real(wp) :: weight(nodes, 0:2), fewer(nodes - 1, 0:2), sine(nodes), way, error
     integer :: k
@@ -115,7 +122,8 @@ contains
       limit%to = max(last, limit%change)
     end associate
     call cross_bridge(linkage, limit, limit%change, pose)
-    call cross_bridge(linkage, limit, limit%change, other, 2, nodes)
+    fewer_nodes = thinned(limit)
+    call cross_bridge(linkage, fewer_nodes, limit%change, other)
     limit%error = max(maxval(abs(pose%pin - other%pin))/span, maxval(abs(pose%direction - &
       other%direction)))
     error = error + weight_of_places*limit%error

@@ -9,7 +9,7 @@ module redundancies
   implicit none (type, external)
   private
 
-  public :: largest_misfit, misfit_of_redundancy, refuse_misfit, body_of_redundancy
+  public :: largest_misfit, misfit_of_redundancy, refuse_misfit, is_fit, body_of_redundancy
 
   !> A linkage fits where all equations are fulfilled to this share of its size.
   real(wp), parameter :: most_misfit = 1.0e-9_wp
@@ -67,10 +67,27 @@ contains
 
     if (size(linkage%redundancies) == 0) return
     call largest_misfit(linkage, pose, origin, crank, misfit, number)
-    if (abs(misfit) <= most_misfit*max(maxval(linkage%bodies%length), maxval(abs(pose%pin)))) return
+    if (is_fit(linkage, pose, misfit)) return
     call set_error(error, error_of_reach, "the redundant link does not fit, by "// &
       to_string(abs(misfit), 3)//" m", body=body_of_redundancy(linkage, number))
   end subroutine refuse_misfit
+
+  !> Whether a misfit is small enough. The smaller determinants are, the more do pins move for what
+  !! the lengths of links lack.
+  pure function is_fit(linkage, pose, misfit)
+    type(linkage_t), intent(in) :: linkage !! with redundancies
+    type(pose_t), intent(in) :: pose       !! with or without determinants
+    real(wp), intent(in) :: misfit         !! of one of them [m]
+    logical :: is_fit
+
+    real(wp), parameter :: least_share = 1.0e-5_wp
+    real(wp) :: share
+
+    share = 1.0_wp
+    if (allocated(pose%sine)) share = min(1.0_wp, max(least_share, minval(abs(pose%sine))))
+    is_fit = abs(misfit)*share <= most_misfit*max(maxval(linkage%bodies%length), &
+      maxval(abs(pose%pin)))
+  end function is_fit
 
   !> The body that a redundancy is about; 0 if it is about a pin on a fixed line.
   pure function body_of_redundancy(linkage, number) result(body)

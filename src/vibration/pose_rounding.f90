@@ -5,6 +5,7 @@
 module pose_rounding
   use bordered_eigensolver, only: bordered_modes_t
   use bordered_pencil, only: elastic_square
+  use bridges, only: thinned
   use deformation_model, only: deformation_model_t
   use eigenvalue_gaps, only: relative_error
   use eigenvalue_sensitivity, only: eigenvalue_change, residual_work
@@ -41,6 +42,9 @@ module pose_rounding
   !! position.
   real(wp), parameter :: usual_spread = 2.0_wp
 
+  !> Where bridges over change points stand: between, places are as exact as there.
+  real(wp), parameter :: edge_sine = 0.02_wp
+
   !> Relative change of a length for the sensitivities, before the factor sin².
   real(wp), parameter :: small_change = 1.0e-3_wp
 
@@ -56,7 +60,8 @@ contains
   !! sine, others do not depend on it, and loads grow like powers of 1/sin. There each length is
   !! changed a little, and `yᵀ(ΔK_G − λ ΔM) y` is the effect. If the linkage closes with neither a
   !! longer nor a shorter link, the error is at least 1. Where links are more than needed, rigid
-  !! ones among them fit with their own lengths alone: their share is that far from dead points.
+  !! ones among them fit with their own lengths alone: their share is that far from dead points. On
+  !! a bridge over a change point lengths do not determine the place, but its nodes do.
   subroutine pose_error(structure, model, state, factor, load_work, found, modes, error, counts)
     type(structure_t), intent(in) :: structure     !! whose position it is
     type(deformation_model_t), intent(in) :: model !! of continuous links at this position
@@ -75,6 +80,7 @@ contains
     spread = max(1.0_wp, length_spread(structure%linkage, state%pose)/usual_spread)
     sine = 1.0_wp
     if (size(state%pose%sine) > 0) sine = minval(abs(state%pose%sine))
+    if (allocated(state%pose%coefficients)) sine = max(sine, edge_sine)
     sine = sine/spread
     least_sine = near_sine
     ! Loads also contain the accelerations of short links: where lengths differ much no multiple of
@@ -91,7 +97,10 @@ contains
       far(i) = far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + relative_error(energy, &
         found%lambda(i)))
     end do
-    if (sine >= least_sine) then
+    if (allocated(state%pose%coefficients)) then
+      call change_nodes(structure, model, state, factor, found, error, counts)
+      error = 2.0_wp*multiple*(far + error)
+    else if (sine >= least_sine) then
       error = 2.0_wp*multiple*far
     else
       call change_lengths(structure, model, state, sine, factor, found, far, error, counts)
@@ -102,6 +111,44 @@ contains
     end if
     error(:min(found%zeros, modes)) = 0.0_wp
   end subroutine pose_error
+
+  !> On a bridge over a change point: the relative change of every eigenvalue from there to the
+  !! place on the bridge with fewer nodes.
+  subroutine change_nodes(structure, model, state, factor, found, error, counts)
+    type(structure_t), intent(in) :: structure
+    type(deformation_model_t), intent(in) :: model
+    type(state_t), intent(in) :: state
+    real(wp), intent(in) :: factor(case_count)
+    type(bordered_modes_t), intent(in) :: found
+    real(wp), intent(out) :: error(:)         !! (modes)
+    type(ledger_t), intent(inout) :: counts
+
+    real(wp) :: own_work(size(error))
+    type(position_equations_t) :: equations
+    type(assembled_t) :: here
+    type(structure_t) :: other
+    logical :: reached
+    integer :: i
+
+    error = 1.0_wp
+    equations = new_position_equations(model)
+    here = new_assembled(structure, model)
+    call assemble_lengths(structure, model, state%crank, factor, here, equations, reached, counts)
+    if (.not. reached) return
+    own_work = residual_work(equations%pencil, found, size(error))
+    other = structure
+    associate (path => other%linkage%path)
+      do i = 1, size(path%bridges)
+        path%bridges(i) = thinned(path%bridges(i))
+      end do
+      do i = 1, 2
+        if (allocated(path%limits(i)%crank)) path%limits(i) = thinned(path%limits(i))
+      end do
+    end associate
+    call assemble_lengths(other, model, state%crank, factor, here, equations, reached, counts)
+    if (reached) error = near_multiple*abs(eigenvalue_change(equations%pencil, found, own_work))/ &
+      max(abs(found%lambda(:size(error))), tiny(1.0_wp))
+  end subroutine change_nodes
 
   !> ε times the sensitivity of every eigenvalue to the lengths of the links, relative.
   subroutine change_lengths(structure, model, state, sine, factor, found, far, error, counts)

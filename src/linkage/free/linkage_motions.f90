@@ -382,6 +382,7 @@ contains
         motion%position(k) = drive_position(system%whole, pose, system%free(k), motion%position(k))
         rates(k) = rate_of_drive(system, pose, now, system%free(k))
       end do
+      chart%pose%sine = determinants
       call take_next_chart(motion, chart, now)
       if (all(abs(determinants) > far_from_dead_points) .and. has_way_back(motion)) then
         system%pose = pose

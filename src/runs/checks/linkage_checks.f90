@@ -21,7 +21,7 @@ module linkage_checks
   use poses, only: place_parts
   use reach_checks, only: check_reach
   use ram_checks, only: check_rams
-  use redundancies, only: largest_misfit
+  use redundancies, only: is_fit, largest_misfit
   use response_linkage_checks, only: check_running
   use superfluous_drives, only: find_superfluous_drive
   use text, only: lower_case, plural, to_string
@@ -36,9 +36,6 @@ module linkage_checks
 
   !> A misfit above this share of the linkage is no error of measures: the links form a structure.
   real(wp), parameter :: most_misfit = 0.1_wp
-
-  !> Rounding in the misfit of redundant links, as a share of the linkage.
-  real(wp), parameter :: fit = 1.0e-9_wp
 
   !> By how much redundant links do not fit.
   type :: misfit_t
@@ -196,6 +193,7 @@ contains
     type(error_t), allocatable :: error
     type(pose_t) :: pose
     real(wp) :: misfit
+    logical :: fits
     integer :: i, number
 
     do i = 1, size(cranks), 1 + size(cranks)/most_samples
@@ -203,8 +201,9 @@ contains
       if (allocated(error)) cycle
       found%span = max(found%span, maxval(abs(pose%pin)), maxval(linkage%bodies%length))
       call largest_misfit(linkage, pose, reference_point(linkage), cranks(i), misfit, number)
-      if (abs(misfit) <= fit*found%span) found%fitting = found%fitting + 1
-      if (found%number == 0 .and. abs(misfit) > fit*found%span) then
+      fits = is_fit(linkage, pose, misfit)
+      if (fits) found%fitting = found%fitting + 1
+      if (found%number == 0 .and. .not. fits) then
         found%first = misfit
         found%at_first = cranks(i)
         found%number = number
