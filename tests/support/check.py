@@ -217,6 +217,14 @@ def published_cases():
     group.end()
 
 
+def assemblies():
+    """Linkages of which the assembly is easily mistaken, in seven views each."""
+    group = Group("assemblies, release")
+    group.lines(execute([sys.executable, "-B", os.path.join("tests", "linkages", "assembly_examples.py"), "--program", program("release"),
+                         "--scratch", fresh("assemblies")]))
+    group.end()
+
+
 def run_deck(group, build, deck, out, options=(), environment=None):
     """Run a deck; status 1 (some rows could not be computed) is no failure here, for the tables tell."""
     run = execute([program(build), *options, "--out", out, deck], environment=environment)
@@ -331,7 +339,7 @@ def main(tests, slow):
         jobs += [(assertions, "debug", tests)] if tests.startswith("funit") else []
         jobs += [(layers,), (documents,)]
         jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS]
-        jobs += [(threads,), (random_linkages,), (linkages_that_vibrate,), (published_cases,)]
+        jobs += [(threads,), (random_linkages,), (linkages_that_vibrate,), (published_cases,), (assemblies,)]
     # Two at once: unit tests take one processor, and decks of one speed, too.
     with multiprocessing.Pool(min(2, os.cpu_count())) as pool:
         for printed, passed, failed in pool.imap(stage, jobs):

@@ -32,6 +32,7 @@ FAMILIES = [
     ("linkages, random", "tests/linkages/random_linkages.py 1 300 --program {program}"),
     ("linkages in motion", "tests/linkages/random_motions.py 1 300 --program {program}"),
     ("assemblies", "tests/support/assemblies.py 300 1 --program {program}"),
+    ("agreement of motions and tables", "tests/linkages/agreement.py 1 300 --program {program}"),
     ("loads", "tests/linkages/random_loads.py 1 400 --program {program}"),
     ("loads in motion", "tests/linkages/random_load_motions.py 1 200 --program {program}"),
     ("vibrations, exact", "tests/linkages/exact_frequencies.py --program {program}"),
