@@ -88,6 +88,8 @@ contains
     type(crank_range_t), intent(in) :: range
     type(low_point_t), allocatable, intent(inout) :: points(:)
 
+    !> Change points are the same if they are this near [deg] or [m].
+    real(wp), parameter :: same = 1.0e-6_wp
     type(low_point_t) :: point
     integer :: i, g
 
@@ -99,6 +101,8 @@ contains
           if (bridge%sine(g, 1)*bridge%sine(g, size(bridge%crank)) > 0.0_wp) cycle
           point = low_point_t(g, change_of(linkage, bridge, g), is_change=.true.)
           if (period > 0.0_wp) point%crank = range%from + modulo(point%crank - range%from, period)
+          ! Where a path begins beside one, another bridge leads over the same one at its end.
+          if (any(points%group == g .and. abs(points%crank - point%crank) < same)) cycle
           if (point%crank <= range%to) points = [points, point]
         end do
       end associate

@@ -333,9 +333,21 @@ contains
       best = pose
       start = starts(i)
     end do
-    if (.not. allocated(best%sine)) return
     unit = 1.0_wp
     if (linkage%drives(1)%kind /= drives_angle) unit = 0.01_wp*maxval(linkage%bodies%length)
+    do i = 2, size(beside)
+      ! Where pins that carry a dyad meet nothing is placed.
+      if (allocated(best%sine)) exit
+      start = starts(1) + beside(i)*unit
+      call place_groups(linkage, start, pose, correction, error)
+      if (allocated(error)) then
+        deallocate (error)
+      else
+        usual = max(usual, abs(pose%sine))
+        best = pose
+      end if
+    end do
+    if (.not. allocated(best%sine)) return
     k = minloc(abs(best%sine)/max(usual, tiny(1.0_wp)), dim=1)
     do i = 1, size(beside)
       if (.not. is_near_change(best%sine, usual, nearest_start)) exit

@@ -24,11 +24,14 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics !! to which warnings are added
 
     type(token_t) :: place
-    real(wp) :: crank
+    !> Change points are the same if they are this near [deg] or [m].
+    real(wp), parameter :: same = 1.0e-6_wp
+    real(wp) :: crank, first
     integer :: i
 
     if (rule_at_change_points(model) /= changes_branch .or. .not. needs_positions(model)) return
     if (model%drives(1)%change_points > 0) return
+    first = -huge(first)
     associate (path => mechanism%linkage%path)
       if (.not. allocated(path%bridges)) return
       place = model%branch_word
@@ -38,6 +41,9 @@ contains
         if (path%period > 0.0_wp) crank = minval(model%crank%value) + modulo(crank - &
           minval(model%crank%value), path%period)
         if (crank > maxval(model%crank%value)) cycle
+        ! A path that begins beside a change point has it at its end, too.
+        if (i > 1 .and. abs(crank - first) < same) cycle
+        if (i == 1) first = crank
         call add_warning(diagnostics, place, "change point at crank "//crank_text(model, crank, &
           6)//": by BRANCH every position keeps its side there, "//group_words(mechanism, &
           mechanism%linkage%groups(path%bridges(i)%group))//", with a corner in the motion; "// &
