@@ -350,9 +350,11 @@ contains
     if (.not. allocated(best%sine)) return
     k = minloc(abs(best%sine)/max(usual, tiny(1.0_wp)), dim=1)
     do i = 1, size(beside)
-      if (.not. is_near_change(best%sine, usual, nearest_start)) exit
+      if (.not. (is_near_change(best%sine, usual, nearest_start) .or. &
+        any(abs(best%sine) < dead_point_sine))) exit
       call place_groups(linkage, start + beside(i)*unit, pose, correction, error)
       if (allocated(error)) exit
+      usual = max(usual, abs(pose%sine))
       if (i == 1) then
         if (abs(pose%sine(k)) < abs(best%sine(k))) unit = -unit
         cycle
