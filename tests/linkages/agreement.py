@@ -9,12 +9,9 @@ drawing, which figures and animations show. Motions are integrated and positions
 Random linkages are those of `assemblies.py`, with change points and redundant links; of inputs/ those that have a mobility of one.
 """
 
-import argparse
 import os
 import re
-import shutil
 import sys
-import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import assemblies  # noqa: E402  pylint: disable=wrong-import-position
@@ -130,16 +127,11 @@ def range_faults(at, cranks):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser = tables.new_parser(__doc__, "flexmech_agreement")
     parser.add_argument("seed", nargs="?", type=int, default=1)
     parser.add_argument("count", nargs="?", type=int, default=300)
     parser.add_argument("--inputs", default="inputs")
-    parser.add_argument("--program", default="build/release/flexmech")
-    parser.add_argument("--scratch", default=os.path.join(tempfile.gettempdir(), "flexmech_agreement"))
-    options = parser.parse_args()
-    program = os.path.abspath(options.program)
-    shutil.rmtree(options.scratch, ignore_errors=True)
-    os.makedirs(options.scratch)
+    options = tables.read_options(parser)
     decks = []
     for name in sorted(os.listdir(options.inputs)):
         if name.endswith(".deck"):
@@ -159,7 +151,7 @@ def main():
     worst, unfit = 0.0, {}
     for i, (name, text) in enumerate(decks):
         try:
-            faults, gap = compare(program, name, text, options.scratch)
+            faults, gap = compare(options.program, name, text, options.scratch)
         except Unfit as reason:
             unfit.setdefault(re.sub(r".*error: |'[^']*'|[-0-9.]+", "", str(reason))[:60], []).append(name)
             continue

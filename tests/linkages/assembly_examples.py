@@ -8,12 +8,9 @@ cycles of many turns, pins that only lengths place. Right values are closed form
 A case that fails is a line with the view in which it does; its deck stays in the scratch folder. The last line is `N passed, N failed`.
 """
 
-import argparse
 import math
 import os
-import shutil
 import sys
-import tempfile
 
 import tables
 
@@ -228,13 +225,7 @@ def fault_of(found, view, is_length, expected):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("--program", default="build/release/flexmech")
-    parser.add_argument("--scratch", default=os.path.join(tempfile.gettempdir(), "flexmech_examples"))
-    options = parser.parse_args()
-    program = os.path.abspath(options.program)
-    shutil.rmtree(options.scratch, ignore_errors=True)
-    os.makedirs(options.scratch)
+    options = tables.read_options(tables.new_parser(__doc__, "flexmech_examples"))
     passed = failed = 0
     for name, (text, expected) in CASES.items():
         for number, entry in enumerate(VIEWS):
@@ -246,7 +237,7 @@ def main():
             with open(path, "w", encoding="utf-8") as deck:
                 deck.write("\n".join(["UNITS m kg s"] + cards + [f"REPORT {report}" for report in reports]) + ("\nSPEED 1\n" if positions else "\n"))
             try:
-                found = tables.run(program, path, options.scratch)
+                found = tables.run(options.program, path, options.scratch)
                 faults = [fault for fault in (fault_of(found, view, is_length, e) for e in expected) if fault]
             except (RuntimeError, KeyError) as reason:
                 faults = [f"{type(reason).__name__} {reason}"]
@@ -255,6 +246,7 @@ def main():
                 print(f"not ok {path} ({view.name}): {'; '.join(faults)}")
             else:
                 passed += 1
+                print(f"ok {name} ({view.name})")
                 os.remove(path)
     print(f"{passed} passed, {failed} failed")
     return 1 if failed else 0

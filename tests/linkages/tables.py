@@ -1,6 +1,9 @@
 """Runs the program and reads its tables."""
+import argparse
 import os
+import shutil
 import subprocess
+import tempfile
 
 
 class Table:
@@ -33,6 +36,23 @@ def _value(word):
         return float(word)
     except ValueError:
         return word
+
+
+def new_parser(description, scratch):
+    """Options of a test script: the program, and a folder below that of temporary files."""
+    options = argparse.ArgumentParser(description=description.split("\n", maxsplit=1)[0])
+    options.add_argument("--program", default="build/release/flexmech")
+    options.add_argument("--scratch", default=os.path.join(tempfile.gettempdir(), scratch))
+    return options
+
+
+def read_options(options):
+    """The options given, with the program's absolute path; their folder is new and empty."""
+    given = options.parse_args()
+    given.program = os.path.abspath(given.program)
+    shutil.rmtree(given.scratch, ignore_errors=True)
+    os.makedirs(given.scratch)
+    return given
 
 
 def run(program, deck, folder):

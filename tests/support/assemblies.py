@@ -10,7 +10,6 @@ each other; closed forms where there are some check it. Misfits below 1e-9 of th
 A linkage that fails is a line with its deck, which stays in the scratch folder; the last lines have the largest differences by kind.
 """
 
-import argparse
 import copy
 import math
 import os
@@ -19,12 +18,11 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections import defaultdict
 from decimal import Decimal, getcontext
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "linkages"))
-from tables import Table  # noqa: E402  pylint: disable=wrong-import-position
+from tables import Table, new_parser, read_options  # noqa: E402  pylint: disable=wrong-import-position
 
 D = Decimal
 getcontext().prec = 50
@@ -1198,7 +1196,7 @@ def exact_angle(u, v):
 
 def run(program, deck, folder):
     try:
-        result = subprocess.run(program + [deck, "--out", folder], capture_output=True, text=True, timeout=MOST_SECONDS, check=False)
+        result = subprocess.run([program, deck, "--out", folder], capture_output=True, text=True, timeout=MOST_SECONDS, check=False)
     except subprocess.TimeoutExpired:
         return -1, f"not done after {MOST_SECONDS} s", {}, None
     place = os.path.join(folder, os.path.splitext(os.path.basename(deck))[0])
@@ -1674,18 +1672,14 @@ def check_scissors(dice, program, folder, path):
 # all
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser = new_parser(__doc__, "flexmech_assemblies")
     parser.add_argument("count", nargs="?", type=int, default=2000)
     parser.add_argument("seed", nargs="?", type=int, default=1)
-    parser.add_argument("--program", default="build/release/flexmech")
-    parser.add_argument("--scratch", default=os.path.join(tempfile.gettempdir(), "flexmech_assemblies"))
     parser.add_argument("--only", help="one kind, or scissors")
     parser.add_argument("--first", type=int, default=1, help="number of the first linkage")
     parser.add_argument("--keep", action="store_true")
-    options = parser.parse_args()
-    program = [os.path.abspath(options.program)]
-    shutil.rmtree(options.scratch, ignore_errors=True)
-    os.makedirs(options.scratch)
+    options = read_options(parser)
+    program = options.program
     worst, counts, undecided = defaultdict(float), defaultdict(lambda: [0, 0, 0, 0, 0]), defaultdict(int)
     levels = defaultdict(lambda: [0, 0])
     passed = failed = 0
