@@ -10,7 +10,14 @@ module bridges
   implicit none (type, external)
   private
 
-  public :: place_on_path, bridge_at, cross_bridge, change_of, thinned, node_weights
+  public :: change_point_t, place_on_path, bridge_at, cross_bridge, change_of, change_points_of, &
+    thinned, edge_sine, node_weights
+
+  !> Where the equations of a group depend on each other, and the linkage goes smoothly on.
+  type :: change_point_t
+    integer :: group = 0       !! number, from 1
+    real(wp) :: crank = 0.0_wp !! [deg] or [m]
+  end type change_point_t
 
 contains
 
@@ -108,6 +115,46 @@ contains
       ends(merge(1, 2, pose%sine(group)*bridge%sine(group, middle) > 0.0_wp)) = change
     end do
   end function change_of
+
+  !> The change points of a path in an interval, each once: of every group that has one under a
+  !! bridge, and not again where another bridge leads over it at the end of the path.
+  pure subroutine change_points_of(linkage, from, to, points)
+    type(linkage_t), intent(in) :: linkage                     !! with bridges
+    real(wp), intent(in) :: from, to                           !! [deg] or [m]
+    type(change_point_t), allocatable, intent(out) :: points(:)
+
+    !> Change points are the same if they are this near [deg] or [m].
+    real(wp), parameter :: same = 1.0e-6_wp
+    real(wp) :: crank
+    integer :: i, g
+
+    allocate (points(0))
+    associate (path => linkage%path)
+      if (.not. allocated(path%bridges)) return
+      do i = 1, size(path%bridges)
+        associate (bridge => path%bridges(i))
+          do g = 1, size(linkage%groups)
+            if (bridge%sine(g, 1)*bridge%sine(g, size(bridge%crank)) > 0.0_wp) cycle
+            crank = change_of(linkage, bridge, g)
+            if (path%period > 0.0_wp) crank = from + modulo(crank - from, path%period)
+            if (crank > to .or. any(points%group == g .and. abs(points%crank - crank) < same)) cycle
+            points = [points, change_point_t(g, crank)]
+          end do
+        end associate
+      end do
+    end associate
+  end subroutine change_points_of
+
+  !> The least of all determinants at the ends of a bridge.
+  pure function edge_sine(bridge) result(sine)
+    type(bridge_t), intent(in) :: bridge !! over a change point
+    real(wp) :: sine
+
+    integer :: middle
+
+    middle = size(bridge%crank)/2
+    sine = minval(abs(bridge%sine(:, middle:middle + 1)))
+  end function edge_sine
 
   !> A bridge without its outermost nodes. By how much its places differ is an estimate of the error
   !! of the whole one.

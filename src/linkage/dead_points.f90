@@ -1,6 +1,6 @@
 !> Where in a range of the first drive a group comes nearest to a dead point.
 module dead_points
-  use bridges, only: bridge_at, change_of, place_on_path
+  use bridges, only: bridge_at, change_point_t, change_points_of, place_on_path
   use crank_limits, only: crank_range_t
   use errors, only: error_t
   use kinds, only: wp
@@ -36,13 +36,17 @@ contains
     real(wp), parameter :: low = 0.1_wp
     !> The beginning of a turn is not its end.
     real(wp), parameter :: rounding = 1.0e-9_wp
+    type(change_point_t), allocatable :: changes(:)
     real(wp), allocatable :: sine(:, :)
     type(low_point_t) :: point, least
     integer :: samples, g, i
 
     samples = range%samples
-    allocate (points(0), sine(size(linkage%groups), -1:samples + 1))
-    call take_change_points(linkage, range, points)
+    allocate (points(0), changes(0), sine(size(linkage%groups), -1:samples + 1))
+    if (has_change_points(linkage)) call change_points_of(linkage, range%from, range%to, changes)
+    do i = 1, size(changes)
+      points = [points, low_point_t(changes(i)%group, changes(i)%crank, is_change=.true.)]
+    end do
     do i = 0, samples
       sine(:, i) = sines_at(linkage, crank_at(range, real(i, wp)))
     end do
@@ -81,33 +85,6 @@ contains
     end function next_of
 
   end subroutine find_low_points
-
-  !> The change points in a range.
-  pure subroutine take_change_points(linkage, range, points)
-    type(linkage_t), intent(in) :: linkage
-    type(crank_range_t), intent(in) :: range
-    type(low_point_t), allocatable, intent(inout) :: points(:)
-
-    !> Change points are the same if they are this near [deg] or [m].
-    real(wp), parameter :: same = 1.0e-6_wp
-    type(low_point_t) :: point
-    integer :: i, g
-
-    if (.not. has_change_points(linkage)) return
-    do i = 1, size(linkage%path%bridges)
-      associate (bridge => linkage%path%bridges(i), period => linkage%path%period)
-        do g = 1, size(linkage%groups)
-          ! A bridge may lead over those of several groups.
-          if (bridge%sine(g, 1)*bridge%sine(g, size(bridge%crank)) > 0.0_wp) cycle
-          point = low_point_t(g, change_of(linkage, bridge, g), is_change=.true.)
-          if (period > 0.0_wp) point%crank = range%from + modulo(point%crank - range%from, period)
-          ! Where a path begins beside one, another bridge leads over the same one at its end.
-          if (any(points%group == g .and. abs(points%crank - point%crank) < same)) cycle
-          if (point%crank <= range%to) points = [points, point]
-        end do
-      end associate
-    end do
-  end subroutine take_change_points
 
   pure logical function is_on_bridge(linkage, crank)
     type(linkage_t), intent(in) :: linkage
