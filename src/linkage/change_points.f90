@@ -16,14 +16,14 @@ module change_points
   implicit none (type, external)
   private
 
-  public :: find_bridge, is_near_change, largest_gap
+  public :: find_bridge, is_near_change, near_change, largest_gap
 
   !> Equations depend on each other where a determinant is below this share of its usual size.
-  real(wp), parameter :: near = 0.02_wp
+  real(wp), parameter :: near_change = 0.02_wp
 
   !> The ends of a bridge may stand nearer by so many halvings: the narrower the zone, the better
   !! its polynomial, but the more the places at its ends are rounded.
-  integer, parameter :: most_halvings = 4
+  integer, parameter :: most_halvings = 9
 
   !> A bridge with less error is as good as it can be.
   real(wp), parameter :: least_error = 1.0e-12_wp
@@ -41,22 +41,18 @@ module change_points
 contains
 
   !> Whether some group is near a point where its equations depend on each other.
-  pure function is_near_change(sine, usual, closer) result(is)
-    real(wp), intent(in) :: sine(:)           !! (groups) as in `pose_t`
-    real(wp), intent(in) :: usual(:)          !! (groups) its largest size so far
-    integer, intent(in), optional :: closer   !! by so many halvings; absent: by none
+  pure function is_near_change(sine, usual, share) result(is)
+    real(wp), intent(in) :: sine(:)  !! (groups) as in `pose_t`
+    real(wp), intent(in) :: usual(:) !! (groups) its largest size so far
+    real(wp), intent(in) :: share    !! of the usual size that is near
     logical :: is
 
-    real(wp) :: share
-
-    share = near
-    if (present(closer)) share = near/2.0_wp**closer
     is = any(abs(sine) < share*usual)
   end function is_near_change
 
   !> Looks for a change point in the next steps, and for the bridge over it.
   pure subroutine find_bridge(linkage, station, step, unit, usual, span, origin, bridge, last, &
-    next, found)
+    next, found, is_ahead)
     type(linkage_t), intent(in) :: linkage   !! with groups and redundancies
     type(station_t), intent(in) :: station   !! before it, where equations are independent
     real(wp), intent(in) :: step             !! along the way, with its sign [deg] or [m]
@@ -67,42 +63,53 @@ contains
     type(bridge_t), intent(out) :: bridge
     type(station_t), intent(out) :: last, next !! its ends, in the sense of the way
     logical, intent(out) :: found
+    logical, intent(out) :: is_ahead           !! it may lie beyond the next step
 
+    !> Of a step: it did not end at a change point.
+    real(wp), parameter :: whole = 0.999_wp
     type(station_t) :: before, far, behind
     type(bridge_t) :: tried
-    !> On a narrower bridge rates are less exact: its places have to be more so.
-    real(wp), parameter :: gain = 0.3_wp
-    real(wp) :: width, spacing, worth
-    logical :: crosses
+    real(wp) :: share, ahead, width, spacing, least, error
+    logical :: crosses, has_crossed
     integer :: closer, k
 
     bridge%error = huge(1.0_wp)
+    least = huge(least)
+    is_ahead = .false.
+    has_crossed = .false.
+    ahead = step
     before = station
     do closer = 0, most_halvings
-      if (is_near_change(station%pose%sine, usual, closer)) cycle
+      share = near_change/2.0_wp**closer
+      if (is_near_change(station%pose%sine, usual, share)) cycle
       far = before
-      call approach(linkage, far, step, unit, usual, closer, before)
+      call approach(linkage, far, ahead, unit, usual, share, before)
+      is_ahead = closer > 0 .and. .not. has_crossed .and. abs(before%crank - far%crank) > &
+        whole*abs(step)
       ! Steps may have failed for another reason, or the zone may be wide enough.
-      if (.not. is_near_change(before%pose%sine, usual, closer - 1)) exit
-      call cross_over(linkage, before, step, unit, usual, closer, far, width, crosses)
+      if (is_ahead .or. .not. is_near_change(before%pose%sine, usual, 2.0_wp*share)) exit
+      call cross_over(linkage, before, step, unit, usual, share, far, width, crosses)
       if (.not. crosses) cycle
-      call approach(linkage, far, before%crank - far%crank, unit, usual, closer, behind)
+      has_crossed = .true.
+      ahead = width
+      call approach(linkage, far, before%crank - far%crank, unit, usual, share, behind)
       ! The best spacing is not known beforehand: wide zones want wide ones.
       spacing = sign(0.5_wp*max(abs(step), abs(width)), step)
-      worth = gain*bridge%error
       do k = 1, 7
         call build(linkage, before, behind, spacing, unit, span, origin, tried)
-        if (tried%error < worth) then
-          worth = tried%error
-          bridge = tried
-          last = before
-          next = behind
-        end if
         spacing = 0.5_wp*spacing
+        if (tried%error > most_error) cycle
+        ! That of accelerations: those of a narrower bridge are less exact than its places.
+        error = tried%error/(tried%to - tried%from)**2
+        if (error >= least) cycle
+        least = error
+        bridge = tried
+        last = before
+        next = behind
       end do
       if (bridge%error <= least_error) exit
     end do
-    found = bridge%error <= most_error
+    found = least < huge(least)
     if (.not. found) return
     bridge%group = maxloc(merge(1.0_wp, 0.0_wp, last%pose%sine*next%pose%sine < 0.0_wp), dim=1)
     bridge%change = change_of(linkage, bridge, bridge%group)
@@ -110,13 +117,13 @@ contains
 
   !> Over the change point: the polynomial through places before it leads to one behind, where
   !! equations are independent again. How far it is, is known from the rate of the determinant.
-  pure subroutine cross_over(linkage, last, step, unit, usual, closer, far, width, found)
+  pure subroutine cross_over(linkage, last, step, unit, usual, share, far, width, found)
     type(linkage_t), intent(in) :: linkage
     type(station_t), intent(in) :: last  !! where equations are still independent
     real(wp), intent(in) :: step         !! along the way, with its sign
     real(wp), intent(in) :: unit
     real(wp), intent(in) :: usual(:)
-    integer, intent(in) :: closer
+    real(wp), intent(in) :: share
     type(station_t), intent(out) :: far  !! behind it
     real(wp), intent(out) :: width       !! estimated, from here to the change point
     logical, intent(out) :: found
@@ -148,7 +155,7 @@ contains
       do i = 1, size(ways)
         call cross_bridge(linkage, behind, last%crank + ways(i)*width, expected)
         call step_to(linkage, last, last%crank + ways(i)*width, expected, far, found)
-        if (found) found = .not. is_near_change(far%pose%sine, usual, closer)
+        if (found) found = .not. is_near_change(far%pose%sine, usual, share)
         if (found) return
       end do
     end do
@@ -181,13 +188,13 @@ contains
   end subroutine make_room
 
   !> As far ahead as equations are independent.
-  pure subroutine approach(linkage, station, ahead, unit, usual, closer, last)
+  pure subroutine approach(linkage, station, ahead, unit, usual, share, last)
     type(linkage_t), intent(in) :: linkage
     type(station_t), intent(in) :: station
     real(wp), intent(in) :: ahead !! beyond that, with its sign
     real(wp), intent(in) :: unit
     real(wp), intent(in) :: usual(:)
-    integer, intent(in) :: closer
+    real(wp), intent(in) :: share
     type(station_t), intent(out) :: last
 
     type(station_t) :: next
@@ -201,7 +208,7 @@ contains
     i = 0
     do while (i < most_tries)
       call take_step(linkage, last, way, unit, next, is_good)
-      if (is_good) is_good = .not. is_near_change(next%pose%sine, usual, closer) .and. &
+      if (is_good) is_good = .not. is_near_change(next%pose%sine, usual, share) .and. &
         (next%crank - station%crank)/ahead < 1.0_wp
       if (is_good) then
         last = next

@@ -6,7 +6,7 @@
 !! cannot leave its branch. Change points are bridged.
 module linkage_paths
   use bridges, only: cross_bridge
-  use change_points, only: find_bridge, is_near_change
+  use change_points, only: find_bridge, is_near_change, near_change
   use constants, only: degree
   use errors, only: error_of_dead_point, error_of_input, error_t, set_error
   use kinds, only: wp
@@ -34,8 +34,8 @@ module linkage_paths
   !> A pose repeats an earlier one if all pins are this near, as a share of the linkage.
   real(wp), parameter :: same_pose = 1.0e-9_wp
 
-  !> Bridges may begin where determinants are halved so often from those at their usual ends.
-  integer, parameter :: nearest_start = 3
+  !> Bridges may begin where determinants are this share of their usual size.
+  real(wp), parameter :: nearest_start = near_change/8.0_wp
 
   !> Dyads that close this share of a step beyond the end of a path are lost, not at a limit.
   real(wp), parameter :: a_little = 1.0e-7_wp
@@ -318,36 +318,26 @@ contains
                                           !! hundredths of the longest link
     type(pose_t) :: pose, best
     type(error_t), allocatable :: error
+    real(wp), allocatable :: places(:)
     real(wp) :: correction, start, unit
-    integer :: i, k, stride
+    integer :: i, k
 
     span = 0.0_wp
-    stride = 1 + (size(starts) - 1)/most_places
-    do i = 1 + stride*((size(starts) - 1)/stride), 1, -stride
-      call place_groups(linkage, starts(i), pose, correction, error)
+    unit = 1.0_wp
+    if (linkage%drives(1)%kind /= drives_angle) unit = 0.01_wp*maxval(linkage%bodies%length)
+    ! Where pins that carry a dyad meet nothing is placed.
+    places = [starts(::1 + (size(starts) - 1)/most_places), starts(1) + beside(2:)*unit]
+    do i = 1, size(places)
+      call place_groups(linkage, places(i), pose, correction, error)
       if (allocated(error)) then
         deallocate (error)
         cycle
       end if
       usual = max(usual, abs(pose%sine))
-      best = pose
-      start = starts(i)
-    end do
-    unit = 1.0_wp
-    if (linkage%drives(1)%kind /= drives_angle) unit = 0.01_wp*maxval(linkage%bodies%length)
-    do i = 2, size(beside)
-      ! Where pins that carry a dyad meet nothing is placed.
-      if (allocated(best%sine)) exit
-      start = starts(1) + beside(i)*unit
-      call place_groups(linkage, start, pose, correction, error)
-      if (allocated(error)) then
-        deallocate (error)
-      else
-        usual = max(usual, abs(pose%sine))
-        best = pose
-      end if
+      if (.not. allocated(best%sine)) best = pose
     end do
     if (.not. allocated(best%sine)) return
+    start = best%crank
     k = minloc(abs(best%sine)/max(usual, tiny(1.0_wp)), dim=1)
     do i = 1, size(beside)
       if (.not. (is_near_change(best%sine, usual, nearest_start) .or. &
@@ -409,14 +399,13 @@ contains
     logical, intent(in) :: through      !! change points
     type(path_t), intent(out) :: path
 
-    type(station_t) :: here, next, last
+    type(station_t) :: here, next, last, behind
     type(bridge_t) :: bridge
     type(approach_t) :: approach
     type(pose_t) :: pose
-    type(error_t), allocatable :: error
-    real(wp) :: step, most_step, goal, unit, correction
+    real(wp) :: step, most_step, goal, unit
     integer :: halvings, stations, turns
-    logical :: is_angle, is_close, is_good, found
+    logical :: is_angle, is_close, is_good, is_free, is_ahead, found
 
     is_angle = linkage%drives(1)%kind == drives_angle
     most_step = length_step*span
@@ -443,18 +432,22 @@ contains
         if (sense*(goal - here%crank - step) < 1.0e-6_wp*most_step) step = goal - here%crank
       end if
       call take_step(linkage, here, step, unit, next, is_good)
-      if (is_good .and. .not. is_close) is_good = .not. is_near_change(next%pose%sine, usual)
-      if (.not. (is_good .or. is_close)) then
-        found = through
-        if (through) call find_bridge(linkage, here, sense*most_step, unit, usual, span, &
-          reference_point(linkage), bridge, last, next, found)
+      is_free = is_good
+      if (is_good) is_free = .not. is_near_change(next%pose%sine, usual, near_change)
+      if (.not. (is_free .or. is_close)) then
+        found = .false.
+        is_close = .true.
+        if (through) then
+          call find_bridge(linkage, here, sense*most_step, unit, usual, span, &
+            reference_point(linkage), bridge, last, behind, found, is_ahead)
+          is_close = .not. (found .or. is_ahead)
+        end if
         if (found) then
           path%bridges = [path%bridges, bridge]
           if (abs(last%crank - here%crank) > 0.0_wp) call append_station(path, stations, last, unit)
+          next = behind
           is_good = .true.
-          step = next%crank - here%crank
         end if
-        is_close = .not. found
       end if
       if (.not. is_good) then
         halvings = halvings + 1
@@ -465,7 +458,7 @@ contains
       if (is_angle .and. abs(here%crank - goal) < 1.0e-9_wp) here%crank = goal
       call append_station(path, stations, here, unit)
       usual = max(usual, abs(here%pose%sine))
-      if (is_close) is_close = is_near_change(here%pose%sine, usual)
+      if (is_close) is_close = is_near_change(here%pose%sine, usual, near_change)
       halvings = max(0, halvings - 1)
       call watch(linkage, here, span, approach)
       if (approach%is_over) exit
@@ -489,13 +482,26 @@ contains
     if (approach%is_found) then
       path%limits(merge(2, 1, sense > 0.0_wp)) = approach%limit
     else if (through .and. halvings > most_halvings .and. .not. has_iterations(linkage)) then
-      pose = here%pose
-      call place_groups(linkage, here%crank + a_little*sense*most_step, pose, correction, error, &
-        sign(1.0_wp, here%pose%sine))
-      path%is_lost(merge(2, 1, sense > 0.0_wp)) = .not. allocated(error)
+      path%is_lost(merge(2, 1, sense > 0.0_wp)) = closes_at(linkage, here%crank + &
+        a_little*sense*most_step, here%pose)
     end if
     call trim_path(path, stations)
   end subroutine march
+
+  !> Whether dyads close at a coordinate on the sides that they have in a pose.
+  pure function closes_at(linkage, crank, pose) result(does)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: crank    !! [deg] or [m]
+    type(pose_t), intent(in) :: pose
+    logical :: does
+
+    type(pose_t) :: there
+    type(error_t), allocatable :: error
+    real(wp) :: correction
+
+    call place_groups(linkage, crank, there, correction, error, sign(1.0_wp, pose%sine))
+    does = .not. allocated(error)
+  end function closes_at
 
   !> Whether all pins and bodies are where they were.
   pure function repeats(pose, first, span)

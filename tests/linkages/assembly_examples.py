@@ -86,6 +86,26 @@ CASES = {
                      "PIN A1 259.807621 150\nPIN A2 1759.807621 150\nPIN A3 959.807621 650\nDRIVE c1\nCRANK 5 to 355 step 10\n",
                      [("kinematics", {"crank": c, "link": "plate"}, "theta", "angle", 0.0, 1e-7) for c in (105, 185, 325)]
                      + [("kinematics", {"crank": c, "link": "c2"}, "theta", "angle", c, 1e-7) for c in (105, 225, 325)]),
+    # A plate on three cranks of one length, two of its change points 11 degrees apart, drawn with ten digits.
+    "plate on a deltoid": ("GROUND Q 2513.4384035933726 1102.8747667578173\nGROUND T 1387.9361006936799 953.70154727859631\n"
+                           "GROUND S 1777.5449278006345 634.4080828914241\nGROUND O 1194.1241 1722.4880000000001\n"
+                           "LINK b B A length=705.87929999999994\nLINK plate B D E lengths=872.3532779826603,503.72944579408824 turns=-71.816071606116267\n"
+                           "LINK second S D length=1457.5701665700001\nLINK crank A O length=705.87929999999994\nLINK c B Q length=1457.5701665700001\n"
+                           "LINK third E T length=1457.5701665700001\nDRIVE crank\nPIN A 536.10963135774057 1466.9835084035997\n"
+                           "PIN B 1059.9514302458017 993.84995864601785\nPIN D 324.05795445306342 525.38327477962468\n"
+                           "PIN E -65.55087265389129 844.67673916679689\nCRANK 155 to 285 step 5\n",
+                           [("linkage", None, None, "absent range", None, 0)] + [("kinematics", {"crank": c, "link": "plate"}, "theta", "angle", math.degrees(
+                               math.atan2(634.4080828914241 - 1102.8747667578173, 1777.5449278006345 - 2513.4384035933726)), 1e-6) for c in (160, 275, 285)]),
+    # One of Dixon's: the crank, the arm beside it and their base fold within half a degree.
+    "narrow fold": ("GROUND P0 0.78854489999999999 1.2094141\nGROUND Q0 1.8533355479340521 1.0085687903220251\nLINK P3Q0 Q0 P3 length=1.3283705782780684\n"
+                    "LINK P1Q0 Q0 P1 length=1.0835672394214675\nLINK P2Q1 P2 Q1 length=1.2183708924376886\nLINK P2Q2 Q2 P2 length=1.0943460025098324\n"
+                    "LINK P1Q1 Q1 P1 length=1.2086986475865769\nLINK P0Q2 Q2 P0 length=1.0835672394214675\nLINK P2Q0 Q0 P2 length=1.0943460025098324\n"
+                    "LINK crank Q1 P0 length=1.2086986475865769\nLINK P1Q2 P1 Q2 length=1.0835672394214675\nLINK P3Q1 P3 Q1 length=1.4322719195617046\n"
+                    "LINK P3Q2 Q2 P3 length=1.3283705782780684\nDRIVE crank change_points=through\nPIN Q1 1.9918793002043784 1.0956655089652578\n"
+                    "PIN P1 1.5727711065990744 -0.038045540081420033\nPIN P2 1.5811606135344163 -0.051390632624817703\n"
+                    "PIN P3 1.7472313479930244 -0.31555744685843512\nPIN Q2 0.50798045866502228 0.16279976959655484\nCRANK 0\n",
+                    [("linkage", None, None, "absent range", None, 0)] + [("linkage", {"part": part, "quantity": "turns"}, "value", "turns", turns, 1e-9)
+                                                                          for part, turns in (("P0Q2", 2), ("P1Q0", 2), ("P1Q1", 1))]),
     "one stage": (scissors(1, "L1") + "CRANK 1.2\n", [("linkage", None, None, "lengths", (0.0, 2.0), 1e-12),
                                                        ("linkage", {"part": "a1", "quantity": "swing"}, "value", "number", 90.0, 1e-8)]),
     "two stages": (scissors(2, "R2") + "CRANK 2.4\n", [("linkage", None, None, "lengths", (2.0, 4.0), 1e-12)]),
