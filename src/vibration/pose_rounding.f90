@@ -5,7 +5,7 @@
 module pose_rounding
   use bordered_eigensolver, only: bordered_modes_t
   use bordered_pencil, only: elastic_square
-  use bridges, only: thinned
+  use bridges, only: bridge_at, edge_sine, place_on_path, thinned
   use deformation_model, only: deformation_model_t
   use eigenvalue_gaps, only: relative_error
   use eigenvalue_sensitivity, only: eigenvalue_change, residual_work
@@ -14,7 +14,7 @@ module pose_rounding
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use ledger, only: ledger_t
-  use linkages, only: groups_by_newton, groups_dyad, linkage_t
+  use linkages, only: groups_by_newton, groups_dyad, linkage_t, path_t
   use load_cases, only: case_count
   use poses, only: find_pose, pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
@@ -41,9 +41,6 @@ module pose_rounding
   !> Ratio of longest to shortest length up to which the sine alone determines the accuracy of a
   !! position.
   real(wp), parameter :: usual_spread = 2.0_wp
-
-  !> Where bridges over change points stand: between, places are as exact as there.
-  real(wp), parameter :: edge_sine = 0.02_wp
 
   !> Relative change of a length for the sensitivities, before the factor sin².
   real(wp), parameter :: small_change = 1.0e-3_wp
@@ -74,13 +71,17 @@ contains
     type(ledger_t), intent(inout) :: counts        !! of poses found and matrices assembled
 
     real(wp) :: sine, least_sine, spread, energy, multiple, far(modes)
-    integer :: i
+    integer :: bridge, i
 
     multiple = merge(multiple_of_parts, 1.0_wp, allocated(structure%elastic))
     spread = max(1.0_wp, length_spread(structure%linkage, state%pose)/usual_spread)
     sine = 1.0_wp
     if (size(state%pose%sine) > 0) sine = minval(abs(state%pose%sine))
-    if (allocated(state%pose%coefficients)) sine = max(sine, edge_sine)
+    if (allocated(state%pose%coefficients)) then
+      ! Over a change point places are as exact as where its bridge stands.
+      bridge = bridge_of(structure%linkage%path, state%crank)
+      if (bridge > 0) sine = max(sine, edge_sine(structure%linkage%path%bridges(bridge)))
+    end if
     sine = sine/spread
     least_sine = near_sine
     ! Loads also contain the accelerations of short links: where lengths differ much no multiple of
@@ -97,13 +98,10 @@ contains
       far(i) = far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + relative_error(energy, &
         found%lambda(i)))
     end do
-    if (allocated(state%pose%coefficients)) then
-      call change_nodes(structure, model, state, factor, found, error, counts)
-      error = 2.0_wp*multiple*(far + error)
-    else if (sine >= least_sine) then
+    if (sine >= least_sine .and. .not. allocated(state%pose%coefficients)) then
       error = 2.0_wp*multiple*far
     else
-      call change_lengths(structure, model, state, sine, factor, found, far, error, counts)
+      call find_changes(structure, model, state, sine, factor, found, far, error, counts)
       error = 2.0_wp*multiple*error
       ! Forces that cancel at every length leave their rounding.
       if (allocated(structure%elastic)) error = error + near_multiple*epsilon(1.0_wp)* &
@@ -112,46 +110,9 @@ contains
     error(:min(found%zeros, modes)) = 0.0_wp
   end subroutine pose_error
 
-  !> On a bridge over a change point: the relative change of every eigenvalue from there to the
-  !! place on the bridge with fewer nodes.
-  subroutine change_nodes(structure, model, state, factor, found, error, counts)
-    type(structure_t), intent(in) :: structure
-    type(deformation_model_t), intent(in) :: model
-    type(state_t), intent(in) :: state
-    real(wp), intent(in) :: factor(case_count)
-    type(bordered_modes_t), intent(in) :: found
-    real(wp), intent(out) :: error(:)         !! (modes)
-    type(ledger_t), intent(inout) :: counts
-
-    real(wp) :: own_work(size(error))
-    type(position_equations_t) :: equations
-    type(assembled_t) :: here
-    type(structure_t) :: other
-    logical :: reached
-    integer :: i
-
-    error = 1.0_wp
-    equations = new_position_equations(model)
-    here = new_assembled(structure, model)
-    call assemble_lengths(structure, model, state%crank, factor, here, equations, reached, counts)
-    if (.not. reached) return
-    own_work = residual_work(equations%pencil, found, size(error))
-    other = structure
-    associate (path => other%linkage%path)
-      do i = 1, size(path%bridges)
-        path%bridges(i) = thinned(path%bridges(i))
-      end do
-      do i = 1, 2
-        if (allocated(path%limits(i)%crank)) path%limits(i) = thinned(path%limits(i))
-      end do
-    end associate
-    call assemble_lengths(other, model, state%crank, factor, here, equations, reached, counts)
-    if (reached) error = near_multiple*abs(eigenvalue_change(equations%pencil, found, own_work))/ &
-      max(abs(found%lambda(:size(error))), tiny(1.0_wp))
-  end subroutine change_nodes
-
-  !> ε times the sensitivity of every eigenvalue to the lengths of the links, relative.
-  subroutine change_lengths(structure, model, state, sine, factor, found, far, error, counts)
+  !> Relative errors of eigenvalues by their changes: ε times the sensitivity to the lengths of the
+  !! links; on a bridge, and towards a limit, `far` and the change with fewer nodes.
+  subroutine find_changes(structure, model, state, sine, factor, found, far, error, counts)
     type(structure_t), intent(in) :: structure
     type(deformation_model_t), intent(in) :: model
     type(state_t), intent(in) :: state
@@ -162,7 +123,7 @@ contains
     real(wp), intent(out) :: error(:)         !! (modes)
     type(ledger_t), intent(inout) :: counts
 
-    real(wp) :: own_work(size(far))
+    real(wp) :: own_work(size(far)), change(size(far))
     type(position_equations_t) :: equations
     type(assembled_t) :: here
     type(structure_t) :: other
@@ -174,27 +135,67 @@ contains
     call assemble_lengths(structure, model, state%crank, factor, here, equations, reached, counts)
     own_work = 0.0_wp
     if (reached) own_work = residual_work(equations%pencil, found, size(far))
+    if (allocated(state%pose%coefficients)) then
+      other = structure
+      call thin_path(other%linkage%path, state%crank)
+      call change_to(other)
+      error = merge(far + change, 1.0_wp, reached)
+      return
+    end if
     error = 0.0_wp
     do b = 1, size(structure%linkage%bodies)
       do side = 1, -1, -2
         other = structure
         call scale_link(other, b, 1.0_wp + side*small_change*sine**2)
-        call assemble_lengths(other, model, state%crank, factor, here, equations, reached, counts)
+        call change_to(other)
         if (reached) exit
       end do
-      if (.not. reached) then
-        if (size(structure%linkage%redundancies) > 0) then
-          error = error + far
-        else
-          error = error + 1.0_wp
-        end if
-        cycle
+      if (reached) then
+        error = error + epsilon(1.0_wp)*change/(small_change*sine**2)
+      else if (size(structure%linkage%redundancies) > 0) then
+        error = error + far
+      else
+        error = error + 1.0_wp
       end if
-      error = error + &
-        near_multiple*epsilon(1.0_wp)*abs(eigenvalue_change(equations%pencil, found, own_work))/ &
-        (small_change*sine**2*max(abs(found%lambda(:size(far))), tiny(1.0_wp)))
     end do
-  end subroutine change_lengths
+
+  contains
+
+    !> Relative changes of the eigenvalues to those of another structure.
+    subroutine change_to(other)
+      type(structure_t), intent(in) :: other
+
+      call assemble_lengths(other, model, state%crank, factor, here, equations, reached, counts)
+      change = 0.0_wp
+      if (reached) change = near_multiple*abs(eigenvalue_change(equations%pencil, found, &
+        own_work))/max(abs(found%lambda(:size(far))), tiny(1.0_wp))
+    end subroutine change_to
+
+  end subroutine find_changes
+
+  !> The bridge of a path at a coordinate; 0: it is towards a limit.
+  pure function bridge_of(path, crank) result(number)
+    type(path_t), intent(in) :: path
+    real(wp), intent(in) :: crank !! where places are on polynomials [deg]
+    integer :: number
+
+    number = bridge_at(path, place_on_path(path, crank))
+  end function bridge_of
+
+  !> Takes the outermost nodes of the polynomials through which places at a coordinate are found.
+  pure subroutine thin_path(path, crank)
+    type(path_t), intent(inout) :: path
+    real(wp), intent(in) :: crank
+
+    integer :: bridge, i
+
+    bridge = bridge_of(path, crank)
+    if (bridge > 0) path%bridges(bridge) = thinned(path%bridges(bridge))
+    if (bridge > 0) return
+    do i = 1, 2
+      if (allocated(path%limits(i)%crank)) path%limits(i) = thinned(path%limits(i))
+    end do
+  end subroutine thin_path
 
   !> Makes a link longer or shorter.
   pure subroutine scale_link(structure, body, factor)
