@@ -3,12 +3,15 @@
 module structures
   use beam_mesh, only: beam_mesh_t, beam_t, new_beam_mesh
   use elastic_linkages, only: elastic_linkage_t
+  use errors, only: error_t
+  use kinds, only: wp
   use linkages, only: linkage_t
+  use poses, only: find_moving_pose, find_pose, pose_t
   implicit none (type, external)
   private
 
-  public :: structure_t, has_beams, has_mesh, damper_count, elements_replaced, &
-    vibrating_linkage, vibrating_beams
+  public :: structure_t, has_beams, has_mesh, has_elastic_reactions, holds_at_change_points, &
+    find_structure_pose, damper_count, elements_replaced, vibrating_linkage, vibrating_beams
 
   !> A linkage with the beams and the mesh of its links.
   type :: structure_t
@@ -41,6 +44,39 @@ contains
 
     has = structure%mesh%unknowns > 0
   end function has_mesh
+
+  !> Whether statics alone cannot tell the forces of a linkage, and its elasticity can.
+  pure function has_elastic_reactions(structure) result(has)
+    class(structure_t), intent(in) :: structure !! with or without beams
+    logical :: has
+
+    has = size(structure%linkage%redundancies) > 0 .and. allocated(structure%elastic)
+  end function has_elastic_reactions
+
+  !> Whether parts that bend may hold a structure at its change points.
+  pure function holds_at_change_points(structure) result(holds)
+    class(structure_t), intent(in) :: structure
+    logical :: holds
+
+    ! Of several drives the rates there are not known one by one.
+    holds = has_elastic_reactions(structure) .and. size(structure%linkage%drives) == 1
+  end function holds_at_change_points
+
+  !> A pose at which the vibrations of a structure are determined, as far as it tells by itself.
+  !!
+  !! Errors: those of `find_pose`, or of `find_moving_pose`.
+  pure subroutine find_structure_pose(structure, crank, pose, error)
+    class(structure_t), intent(in) :: structure
+    real(wp), intent(in) :: crank !! of the first drive [deg] or [m]
+    type(pose_t), intent(out) :: pose
+    type(error_t), allocatable, intent(out) :: error
+
+    if (holds_at_change_points(structure)) then
+      call find_moving_pose(structure%linkage, crank, pose, error)
+    else
+      call find_pose(structure%linkage, crank, pose, error)
+    end if
+  end subroutine find_structure_pose
 
   !> Number of dampers between parts.
   pure function damper_count(structure) result(number)

@@ -14,7 +14,7 @@ module part_displacements
   use link_modes, only: link_modes_t
   use linkages, only: linkage_t, normal_to
   use pin_displacements, only: chords_t
-  use poses, only: pose_t
+  use poses, only: dead_point_sine, pose_t, refuse_change_point
   use text, only: to_string
   implicit none (type, external)
   private
@@ -61,7 +61,8 @@ contains
 
   !> The basis at a position, and what its unknowns do to points and parts.
   !!
-  !! Errors: more or fewer free motions than the linkage has elsewhere: a dead point.
+  !! Errors: a change point at which no redundant links hold the linkage; more or fewer free motions
+  !! than it has elsewhere: a dead point.
   pure subroutine find_part_chords(linkage, elastic, links, pose, unknowns, free, with_forces, &
     border, chords, error)
     type(linkage_t), intent(in) :: linkage         !! that moves: its drives
@@ -77,6 +78,10 @@ contains
 
     call find_border_rows(elastic, links, border%numbers, pose, border%rows)
     call find_row_basis(border%rows, border%basis, border%primary, with_forces)
+    if (border%basis%free /= free .or. border%basis%least_pivot < dead_point_sine) then
+      call refuse_change_point(pose, error)
+      if (allocated(error)) return
+    end if
     if (size(border%basis%unknown, 2) /= unknowns .or. border%basis%free /= free) then
       call set_error(error, error_of_dead_point, "dead point: the linkage has "// &
         to_string(border%basis%free)//" free motions here, elsewhere "//to_string(free))

@@ -8,7 +8,7 @@ module joint_forces
     demands_turn, drives_length, group_t, groups_carried, groups_dyad, is_dyad_linkage, &
     linkage_t, normal_to
   use pose_types, only: arm_to_pin
-  use poses, only: arm_to_middle, pose_t
+  use poses, only: arm_to_middle, dead_point_sine, pose_t
   implicit none (type, external)
   private
 
@@ -37,7 +37,8 @@ contains
   !> Forces at the pins and driving torque by Ulker 2010 (2.47) to (2.49).
   !!
   !! Groups are removed in the reverse of the order in which they are placed. Each passes the forces
-  !! at its bases on as loads on what carries it, until only the driven body is left.
+  !! at its bases on as loads on what carries it, until only the driven body is left. At a change
+  !! point statics tells the force of a single drive alone; the others are 0.
   pure function find_joint_forces(linkage, pose, body_load, pin_load) result(forces)
     type(linkage_t), intent(in) :: linkage   !! bodies and dyads
     type(pose_t), intent(in) :: pose         !! away from dead points
@@ -57,6 +58,11 @@ contains
     carried = pin_load
     load = body_load
     if (.not. is_dyad_linkage(linkage)) call clear_further_forces(linkage, forces)
+    if (allocated(pose%coefficients) .and. any(abs(pose%sine) < dead_point_sine)) then
+      forces%torque = force_of_drive(linkage, pose, body_load, pin_load)
+      if (allocated(forces%drive)) forces%drive(1) = forces%torque
+      return
+    end if
     do i = size(linkage%groups), 1, -1
       select case (linkage%groups(i)%kind)
       case (groups_dyad)
@@ -79,6 +85,23 @@ contains
       forces%torque = forces%drive(1)
     end if
   end function find_joint_forces
+
+  !> Torque or force of a single drive, by the virtual work of the loads [N m] or [N].
+  pure function force_of_drive(linkage, pose, body_load, pin_load) result(force)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose         !! with its coefficients
+    type(load_t), intent(in) :: body_load(:) !! (bodies)
+    real(wp), intent(in) :: pin_load(:, :)   !! (2, pins) [N]
+    real(wp) :: force
+
+    integer :: b
+
+    force = -sum(pin_load*pose%coefficients%pin)
+    do b = 1, size(body_load)
+      force = force - dot_product(body_load(b)%force, pose%coefficients%pin(:, &
+        linkage%bodies(b)%first_pin)) - body_load(b)%moment*pose%coefficients%turn(b)
+    end do
+  end function force_of_drive
 
   !> No forces in the joints of a linkage that is no four-bar.
   pure function no_joint_forces(linkage) result(forces)

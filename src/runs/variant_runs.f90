@@ -29,6 +29,7 @@ module variant_runs
   use report_table, only: find_study, study_names
   use response_study, only: find_response
   use stability_study, only: find_intervals_of, find_stability_of
+  use structures, only: holds_at_change_points
   use study_requests, only: campbell_request_of, drawn_states, intervals_request_of, &
     linkage_motion_request_of, mode_request_of, motion_request_of, response_request_of, &
     stability_request_of, transient_request_of
@@ -152,9 +153,10 @@ contains
       if (needs_positions(model)) then
         call find_all_positions(linkage, model%crank%value, threads, variant%found%positions, &
           has_law(model))
-        if (needs_study(model, "reactions") .or. needs_study(model, "joints") .or. &
-          needs_study(model, "friction") .or. needs_study(model, "frequencies")) &
-          call refuse_change_points(variant%found%positions)
+        if ((needs_study(model, "reactions") .or. needs_study(model, "joints") .or. &
+          needs_study(model, "friction") .or. needs_study(model, "frequencies")) .and. .not. &
+          holds_at_change_points(variant%mechanism)) call refuse_change_points( &
+          variant%found%positions)
       else
         call find_all_positions(linkage, none, threads, variant%found%positions)
       end if

@@ -1,8 +1,7 @@
 !> Forward dynamics of linkages that are no four-bars, sampled at given instants.
 module linkage_motion_study
   use drives, only: motor_drive_t
-  use elastic_reactions, only: divide_motion, elastic_division_t, has_elastic_reactions, &
-    new_elastic_division
+  use elastic_reactions, only: divide_motion, elastic_division_t, new_elastic_division
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
   use gears, only: gear_t
   use interruption, only: was_interrupted
@@ -16,7 +15,7 @@ module linkage_motion_study
     stop_many_steps, stop_misfit, stop_no_inertia, stop_too_fast
   use linkages, only: linkage_t
   use rigid_bodies, only: rigid_bodies_of
-  use structures, only: structure_t
+  use structures, only: has_elastic_reactions, structure_t
   implicit none (type, external)
   private
 

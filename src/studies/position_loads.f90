@@ -1,7 +1,7 @@
 !> Forces in the joints at a position and at a speed: by statics, or divided by elasticity.
 module position_loads
   use elastic_reactions, only: divide_by_elasticity, elastic_division_t, elastic_position_t, &
-    find_divided, has_elastic_reactions, new_elastic_division
+    find_divided, new_elastic_division
   use errors, only: error_t, outcome_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -10,7 +10,7 @@ module position_loads
   use positions, only: positions_t
   use reactions, only: find_unit_reactions, unit_reactions_t
   use running_loads, only: divided_t, find_running_loads, running_t
-  use structures, only: structure_t
+  use structures, only: has_elastic_reactions, structure_t
   implicit none (type, external)
   private
 

@@ -31,8 +31,8 @@ module elastic_reactions
   implicit none (type, external)
   private
 
-  public :: elastic_division_t, elastic_position_t, has_elastic_reactions, new_elastic_division, &
-    new_elastic_model, divide_by_elasticity, find_divided, divide_motion, self_stresses, least_open
+  public :: elastic_division_t, elastic_position_t, new_elastic_division, new_elastic_model, &
+    divide_by_elasticity, find_divided, divide_motion, self_stresses, least_open
 
   !> Orders of the links: their border alone carries loads.
   integer, parameter :: least_order = 5
@@ -54,14 +54,6 @@ module elastic_reactions
   end type elastic_position_t
 
 contains
-
-  !> Whether statics alone cannot tell the forces of a linkage, and its elasticity can.
-  pure function has_elastic_reactions(structure) result(has)
-    class(structure_t), intent(in) :: structure !! with or without beams
-    logical :: has
-
-    has = size(structure%linkage%redundancies) > 0 .and. allocated(structure%elastic)
-  end function has_elastic_reactions
 
   !> The parts of a linkage, once for all positions.
   !!

@@ -8,13 +8,13 @@ module frequency_loci
   use load_cases, only: case_count
   use modal_assurance, only: likeness, mode_prints_t
   use mode_prints, only: prints_of
-  use poses, only: find_pose, pose_t
+  use poses, only: pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
   use position_results, only: frequency_of
   use positions, only: positions_t
   use sorting, only: ascending_order
   use speed_solver, only: new_speed_work, solve_speeds, speed_work_t
-  use structures, only: structure_t
+  use structures, only: find_structure_pose, structure_t
   use sweeps, only: has_result, sweep_t
   use vibration_models, only: load_factors, mode_request_t, vibration_models_t
   implicit none (type, external)
@@ -248,7 +248,7 @@ contains
     real(wp) :: factor(case_count, 1)
 
     found = .false.
-    call find_pose(structure%linkage, place(1), pose, error)
+    call find_structure_pose(structure, place(1), pose, error)
     counts%kinematic_solutions = counts%kinematic_solutions + 1
     if (allocated(error)) return
     here_requested = request

@@ -16,11 +16,11 @@ module pose_rounding
   use ledger, only: ledger_t
   use linkages, only: groups_by_newton, groups_dyad, linkage_t, path_t
   use load_cases, only: case_count
-  use poses, only: find_pose, pose_t
+  use poses, only: pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
   use position_equations, only: new_position_equations, position_equations_t, set_speed
   use positions, only: state_t
-  use structures, only: structure_t
+  use structures, only: find_structure_pose, structure_t
   implicit none (type, external)
   private
 
@@ -257,7 +257,7 @@ contains
     type(error_t), allocatable :: error
     type(outcome_t) :: outcome(1)
 
-    call find_pose(structure%linkage, crank, pose, error)
+    call find_structure_pose(structure, crank, pose, error)
     counts%kinematic_solutions = counts%kinematic_solutions + 1
     reached = .not. allocated(error)
     if (.not. reached) return

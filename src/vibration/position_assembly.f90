@@ -19,10 +19,10 @@ module position_assembly
   use part_forces, only: find_part_forces, part_forces_t
   use part_poses, only: find_part_loads, part_loads_t, place_parts_of
   use pin_displacements, only: chords_t
-  use poses, only: find_pose, pose_t
+  use poses, only: pose_t
   use position_equations, only: assemble_equations, assemble_mass, assemble_unit_loads, &
     position_equations_t
-  use structures, only: structure_t
+  use structures, only: find_structure_pose, structure_t
   implicit none (type, external)
   private
 
@@ -72,7 +72,7 @@ contains
     here = new_assembled(structure, model)
     least = huge(least)
     do i = 1, size(crank)
-      call find_pose(structure%linkage, crank(i), pose, error)
+      call find_structure_pose(structure, crank(i), pose, error)
       if (allocated(error)) cycle
       call place_parts(structure, model, pose, here, error)
       if (allocated(error)) cycle

@@ -37,6 +37,7 @@ module graded_rows
     integer :: free = 0                     !! the last unknowns of the basis: y does not depend on
                                             !! them
     integer :: idle_constraints = 0         !! constraints that follow from the others
+    real(wp) :: least_pivot = 1.0_wp        !! what was left of a pivot row, per its largest entry
     real(wp), allocatable :: unknown(:, :)  !! (unknowns, basis) S
     real(wp), allocatable :: weighted(:, :) !! (rows, basis − free) Q, with orthonormal columns
     integer, allocatable :: primary(:)      !! (basis − free) the pivot rows, ascending
@@ -280,6 +281,9 @@ contains
     n = size(basis%primary)
     basis%idle_constraints = constraints - (pivots - n)
     basis%free = size(work, 1) - pivots
+    do i = 1, pivots
+      basis%least_pivot = min(basis%least_pivot, abs(work(column(i), pivot(i))))
+    end do
     allocate (basis%unknown(size(work, 1), n + basis%free), basis%weighted(size(rows%row, 2), n))
     allocate (step(n))
     do j = 1, n

@@ -56,8 +56,8 @@ contains
         "or a ram"//name, kind=error_of_reach)
     else
       call add_error(diagnostics, model%reports(report)%keyword, "the crank does not turn "// &
-        "fully, meets a dead point, or the links are elsewhere after a turn"//name, &
-        kind=error_of_reach)
+        "fully, meets a dead point or a change point, or the links are elsewhere after a turn"// &
+        name, kind=error_of_reach)
     end if
   end subroutine check_running
 
