@@ -4,8 +4,8 @@
     agreement.py [SEED [COUNT]] [--inputs FOLDER] [--program PATH] [--scratch FOLDER]     300 random linkages of seed 1, and all of inputs/
 
 Each linkage is given masses and let run on, by `REPORT motion`, through its change points and up to its limits. At the positions where
-it is then, its places have to be those of `REPORT pins`, and these positions have to be in one range of `REPORT linkage`: that of the
-drawing, which figures and animations show. Motions are integrated and positions are solved for: the two share no stepping.
+it is then, its places have to be those of `REPORT pins`, and of `REPORT geometry`, which figures and animations draw; and these positions
+have to be in one range of `REPORT linkage`, that of the drawing. Motions are integrated and positions are solved for: they share no stepping.
 Random linkages are those of `assemblies.py`, with change points and redundant links; of inputs/ those that have a mobility of one.
 """
 
@@ -87,22 +87,24 @@ def compare(program, name, text, scratch):
         raise Unfit("it does not move")
     column = "crank" if "crank" in motion[0] else found["motion"].names[1]
     cranks = [row[column] for row in motion]
-    at = run(program, name + "_p", cards + ["CRANK " + " ".join(f"{c:.17g}" for c in cranks), "SPEED 1 rad/s", "REPORT pins", "REPORT linkage"], scratch)
+    at = run(program, name + "_p", cards + ["CRANK " + " ".join(f"{c:.17g}" for c in cranks), "SPEED 1 rad/s", "REPORT pins", "REPORT linkage",
+                                       "REPORT geometry crank=" + ",".join(f"{c:.17g}" for c in cranks)], scratch)
     places = {}
     for row in at["pins"].rows:
         places.setdefault(row["pin"], []).append((row["crank"], row["x"], row["y"]))
     size = max(max(p[k] for rows in places.values() for p in rows) - min(p[k] for rows in places.values() for p in rows) for k in (1, 2))
     worst, faults = 0.0, []
     time_of = {row["time"]: row[column] for row in motion}
-    for row in found["motion_pins"].rows:
-        if row["time"] > last:
-            break
-        crank = time_of[row["time"]]
-        gaps = [max(abs(row["x"] - x), abs(row["y"] - y)) for c, x, y in places.get(row["pin"], []) if abs(c - crank) <= 1e-9*max(1, abs(crank))]
+    moved = [(time_of[row["time"]], row["pin"], row) for row in found["motion_pins"].rows if row["time"] <= last]
+    drawn = [(row["crank"], row["place"], row) for row in at["geometry"].rows if row["part"] == "pin" and row["place"] in places]
+    if not drawn:
+        faults.append("nothing is drawn")
+    for crank, pin, row in moved + drawn:
+        gaps = [max(abs(row["x"] - x), abs(row["y"] - y)) for c, x, y in places.get(pin, []) if abs(c - crank) <= 1e-9*max(1, abs(crank))]
         if not gaps:
-            faults.append(f"no row of {row['pin']} at {crank}")
+            faults.append(f"no row of {pin} at {crank}")
         elif min(gaps) > MOST*size:
-            faults.append(f"{row['pin']} is {min(gaps)/size:.1e} of the size off at {crank}")
+            faults.append(f"{pin} is {min(gaps)/size:.1e} of the size off at {crank}")
         worst = max([worst] + [min(gaps)/size] if gaps else [worst])
     return faults + range_faults(at, cranks), worst
 
