@@ -1620,7 +1620,8 @@ def scissors(dice):
         if any(a in pins and b in pins for pins in links.values()):
             continue
         u, w = abs(places[a][0] - places[b][0]), abs(places[a][1] - places[b][1])
-        if u != w and u > 0 and w > 0:
+        # One stage has no such pair: its rams lie along a side.
+        if u != w and (n == 1 or (u > 0 and w > 0)):
             break
     scale, angle = D(10)**dice.choice((-3, -1, 0, 0, 1, 3))*dice.number(0.5, 2), dice.number(-180, 180, 1)
     sense = dice.choice((1, -1))
@@ -1636,7 +1637,10 @@ def scissors(dice):
         lines.append(f"LINK {name} {' '.join(pins)} lengths={half},{half} turns=0")
     lines += [f"LINK ram {a} {b}", "SLIDER S floor", "DRIVE ram length"]
     lines += [f"PIN {pin} " + " ".join(map(text17, place)) for pin, place in at.items() if pin != "O"]
-    cosines = [direction(dice.number(8, 82, 1)) for _ in range(4)]
+    angles = set()
+    while len(angles) < 4:
+        angles.add(dice.number(8, 82, 1))
+    cosines = [direction(x) for x in sorted(angles)]
     lengths = [2*scale*((u*c)**2 + (w*s)**2).sqrt() for c, s in cosines]
     lines += ["CRANK " + " ".join(map(text17, lengths)) + " m", f"SPEED {text17(scale)} m/s", "REPORT linkage", "REPORT pins"]
     exact = [(all_places(c, s), length, (c, s)) for (c, s), length in zip(cosines, lengths)]
