@@ -152,7 +152,8 @@ contains
       if (relative_width > widest_bracket .or. (i == 1 .and. roundoff > most_round_off*size_of)) &
         then
         call set_error(error, error_of_numerics, "round-off leaves mode "//to_string(i)// &
-          " uncertain by "//to_string(0.5_wp*relative_width, 2)//" of its frequency")
+          " uncertain by "//to_string(0.5_wp*relative_width, 2)//" of its frequency; "// &
+          "fewer elements or 'accuracy=' leave less")
       else if (below > i - 1) then
         call set_error(error, error_of_numerics, "a mode is missing: "//to_string(below)// &
           " eigenvalues are counted below mode "//to_string(i))

@@ -21,7 +21,6 @@ module ledger
                                         !! link
     integer :: full_solutions = 0       !! eigenproblems started from, or solved as, the dense one
                                         !! of all unknowns
-    integer :: operator_products = 0    !! of M and of K + K_G with a vector on long meshes
     integer :: proofs = 0               !! that no mode is missing
     integer :: shapes = 0               !! mode shapes sampled
   end type ledger_t
@@ -42,7 +41,6 @@ contains
     total%extrapolated = total%extrapolated + part%extrapolated
     total%reduced_solutions = total%reduced_solutions + part%reduced_solutions
     total%full_solutions = total%full_solutions + part%full_solutions
-    total%operator_products = total%operator_products + part%operator_products
     total%proofs = total%proofs + part%proofs
     total%shapes = total%shapes + part%shapes
   end subroutine add_ledger

@@ -12,15 +12,14 @@ module mesh_forces
   implicit none (type, external)
   private
 
-  public :: find_mesh_forces, find_element_forces, smooth_functions
+  public :: find_mesh_forces, find_element_forces
 
 contains
 
-  !> Axial forces under the unit loads, in two forms: as coefficients of the model's force functions
-  !! and element by element of the mesh.
-  pure subroutine find_mesh_forces(structure, model, state, unit_loads, lumped, force, in_element)
+  !> Axial forces under the unit loads, as coefficients of the model's force functions.
+  pure subroutine find_mesh_forces(structure, model, state, unit_loads, lumped, force)
     type(structure_t), intent(in) :: structure       !! with a mesh
-    type(deformation_model_t), intent(in) :: model   !! of the mesh; long links may be continuous
+    type(deformation_model_t), intent(in) :: model   !! of the mesh
     type(state_t), intent(in) :: state               !! with a pose
     type(unit_loads_t), intent(in) :: unit_loads     !! at this pose
     logical, intent(in) :: lumped                    !! masses on the nodes of the mesh; else along
@@ -29,10 +28,9 @@ contains
                                                               !! of lumps; bodies; cases) [N];
                                                               !! without loads
                                                               !! no functions
-    real(wp), allocatable, intent(out) :: in_element(:, :, :) !! (1, ξ, ξ²; elements; cases) [N];
-                                                              !! without loads no elements
 
     type(joint_forces_t) :: joints
+    real(wp) :: in_element(3, sum(structure%mesh%elements))
     real(wp), allocatable :: jump(:)
     integer :: b, i, first, functions, smooth
 
@@ -41,22 +39,20 @@ contains
       if (any(occurs)) functions = max(3, maxval(model%elements, mask=model%lumped)) + &
         most_lump_functions(linkage)
       allocate (force(functions, size(model%links), case_count))
-      allocate (in_element(3, merge(sum(mesh%elements), 0, any(occurs)), case_count))
       force = 0.0_wp
-      in_element = 0.0_wp
       do i = 1, case_count
         if (.not. occurs(i)) cycle
         associate (case => unit_loads%of_case(i))
-          call find_element_forces(structure, state, case, lumped, in_element(:, :, i), joints)
+          call find_element_forces(structure, state, case, lumped, in_element, joints)
           do b = 1, size(model%links)
             first = mesh%first_element(b)
             if (.not. model%links(b)%bends) then
-              force(1, b, i) = in_element(1, first, i)
+              force(1, b, i) = in_element(1, first)
               cycle
             end if
             smooth = smooth_functions(model, b)
             if (model%lumped(b)) then
-              force(:smooth, b, i) = in_element(1, first:first + smooth - 1, i)
+              force(:smooth, b, i) = in_element(1, first:first + smooth - 1)
             else
               force(:smooth, b, i) = link_axial_force(linkage, b, state%pose, case%field, joints)
             end if

@@ -20,7 +20,7 @@ module position_equations
 
   public :: position_equations_t, new_position_equations
   public :: assemble_equations, assemble_mass_at, assemble_mass, assemble_unit_loads, &
-    assemble_stiffness_of, set_speed
+    set_speed
 
   !> Allocated once for a model, filled at every position.
   type :: position_equations_t
@@ -106,17 +106,6 @@ contains
     equations%occurs = .false.
     equations%pencil%loaded = .false.
   end subroutine assemble_mass
-
-  !> Assembles K_G of given axial forces, in place of that of a speed.
-  pure subroutine assemble_stiffness_of(model, force, equations)
-    type(deformation_model_t), intent(in) :: model !! its links' own deformations
-    real(wp), intent(in) :: force(:, :)            !! (force functions, bodies) axial forces [N]
-    type(position_equations_t), intent(inout) :: equations !! with the chords of this position
-
-    equations%pencil%loaded = .true.
-    call reduced_geometric_stiffness(model%links, model%layout, equations%chords, force, &
-      equations%pencil%geometric)
-  end subroutine assemble_stiffness_of
 
   !> Sets K_G of a speed from the unit matrices: `K_G = K_const + ω2² K_ω + α2 K_α`.
   pure subroutine set_speed(equations, factor)

@@ -1,7 +1,6 @@
 !> Results of the vibration analysis at one position, and the work space for it.
 module position_results
   use constants, only: two_pi
-  use deformation_chain, only: deformation_chain_t
   use errors, only: outcome_t
   use kinds, only: wp
   use ledger, only: ledger_t
@@ -48,10 +47,9 @@ module position_results
 
   !> Matrices of the models, and the modes of the last positions of a sweep.
   type :: position_work_t
-    type(assembled_t) :: here          !! the present position
-    type(speed_work_t) :: continuum    !! for the continuous links
-    type(speed_work_t) :: mesh         !! for the deck's mesh, or its near model if it is long
-    type(deformation_chain_t) :: chain !! the long mesh
+    type(assembled_t) :: here       !! the present position
+    type(speed_work_t) :: continuum !! for the continuous links
+    type(speed_work_t) :: mesh      !! for the deck's mesh
   end type position_work_t
 
 contains

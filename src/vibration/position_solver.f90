@@ -16,7 +16,7 @@ module position_solver
   use load_sizes, only: axial_sizes, second_order_work
   use massless_links, only: refuse_missing_modes
   use matrix_rounding, only: find_matrix_errors
-  use mesh_solver, only: solve_long_mesh, solve_mesh
+  use mesh_solver, only: solve_mesh
   use mode_prints, only: prints_of
   use nodal_solver, only: solve_nodal
   use order_errors, only: order_error, with_modes_above
@@ -30,7 +30,7 @@ module position_solver
   use shape_samples, only: sample_reduced
   use speed_solver, only: new_speed_work, solve_speeds
   use structures, only: damper_count, structure_t
-  use vibration_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders, &
+  use vibration_models, only: by_band, by_dense, by_link_modes, by_orders, &
     load_factors, mode_request_t, vibration_models_t
   implicit none (type, external)
   private
@@ -48,9 +48,8 @@ contains
 
     work%here = new_assembled(structure, models%continuum)
     work%continuum = new_speed_work(models%continuum, size(request%speed), request%accuracy)
-    if (any(request%method == [by_link_modes, by_long_mesh])) work%mesh = &
-      new_speed_work(models%mesh, size(request%speed))
-    if (request%method == by_long_mesh) work%chain = models%chain
+    if (request%method == by_link_modes) work%mesh = new_speed_work(models%mesh, &
+      size(request%speed))
   end function new_position_work
 
   !> Solves Ulker 2010 (2.88) at a pose for every speed, with or without the axial forces of the
@@ -184,9 +183,6 @@ contains
     case (by_link_modes)
       call solve_mesh(structure, models%mesh, state, work%here%loads, request, factor, &
         want_shapes, work%mesh, result)
-    case (by_long_mesh)
-      call solve_long_mesh(structure, models%mesh, state, work%here%loads, request, factor, &
-        want_shapes, work, result)
     case (by_dense, by_band)
       call solve_nodal(structure, state, work%here%loads, request, factor, want_shapes, result)
     end select

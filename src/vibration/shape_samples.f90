@@ -2,11 +2,10 @@
 module shape_samples
   use bordered_eigensolver, only: bordered_modes_t
   use deflected_shape, only: shape_point
-  use deformation_chain, only: chain_shape, deformation_chain_t
   use deformation_model, only: deformation_model_t
   use elastic_linkages, only: elastic_linkage_t
   use kinds, only: wp
-  use linkages, only: cross, drives_angle, drives_slider, linkage_t, normal_to
+  use linkages, only: cross, drives_angle, drives_slider, linkage_t
   use pin_displacements, only: chords_t
   use pose_types, only: pins_of_body
   use poses, only: pose_t
@@ -17,7 +16,7 @@ module shape_samples
   implicit none (type, external)
   private
 
-  public :: shapes_t, sample_reduced, sample_chain, sample_nodal
+  public :: shapes_t, sample_reduced, sample_nodal
 
   !> Displacements along the links in every mode, in global axes, with φᵀMφ = 1. The sign is that of
   !! `turn_at_drive`, or else `turn_of_all`, whatever the method and the number of points.
@@ -88,49 +87,6 @@ contains
 
   end subroutine sample_reduced
 
-  !> Shapes of a long mesh, as in `sample_reduced`.
-  pure subroutine sample_chain(linkage, chain, state, vector, request, shapes)
-    type(linkage_t), intent(in) :: linkage         !! of the structure
-    type(deformation_chain_t), intent(in) :: chain !! the long mesh at this position
-    type(state_t), intent(in) :: state             !! with a pose
-    real(wp), intent(in) :: vector(:, :)           !! (unknowns, modes) with xᵀMx = 1
-    type(mode_request_t), intent(in) :: request    !! modes, points along each link
-    type(shapes_t), intent(out) :: shapes          !! of the modes requested
-
-    type(drive_place_t) :: drive
-    real(wp) :: turn
-    integer :: mode
-
-    drive = place_of_drive(linkage)
-    allocate (shapes%displacement(3, request%points, size(linkage%bodies), request%modes))
-    do mode = 1, request%modes
-      turn = turn_at_drive(linkage, state%pose, drive, sampled(mode, coarse))
-      if (.not. abs(turn) > 0.0_wp) turn = turn_of_all(linkage, state%pose, drive, sampled(mode, &
-        fine))
-      shapes%displacement(:, :, :, mode) = sign(1.0_wp, turn)*sampled(mode, request%points)
-    end do
-
-  contains
-
-    !> A mode at evenly spaced places of every link.
-    pure function sampled(mode, points) result(at)
-      integer, intent(in) :: mode, points
-      real(wp) :: at(3, points, size(linkage%bodies))
-
-      real(wp) :: local(3, points)
-      integer :: b, i
-
-      do b = 1, size(linkage%bodies)
-        local = chain_shape(chain, vector(:, mode), b, [(real(i - 1, wp)/(points - 1), i=1, &
-          points)])
-        do i = 1, points
-          at(:, i, b) = in_global_axes(local(:, i), state%pose%direction(:, b))
-        end do
-      end do
-    end function sampled
-
-  end subroutine sample_chain
-
   !> Shapes of a mesh in nodal displacements, as in `sample_reduced`.
   pure subroutine sample_nodal(structure, state, vector, request, shapes)
     type(structure_t), intent(in) :: structure  !! with a mesh
@@ -172,15 +128,6 @@ contains
     end function sampled
 
   end subroutine sample_nodal
-
-  !> Turns a displacement along and across a link to global axes; the rotation stays as it is.
-  pure function in_global_axes(local, direction) result(global)
-    real(wp), intent(in) :: local(3)     !! along, across, rotation
-    real(wp), intent(in) :: direction(2) !! of the link
-    real(wp) :: global(3)                !! x, y, rotation
-
-    global = [local(1)*direction + local(2)*normal_to(direction), local(3)]
-  end function in_global_axes
 
   !> How far the far end of the driven link goes round the joint of its drive, counter-clockwise;
   !! 0 where it is at rest. It depends neither on the order of pins and links, nor on cuts.

@@ -1,8 +1,6 @@
 !> The models with which a run finds frequencies at any position; made once.
 module vibration_models
-  use beam_element, only: axial_degree
   use damped_eigensolver, only: first_guards
-  use deformation_chain, only: deformation_chain_t, new_deformation_chain
   use deformation_model, only: deformation_model_t, new_deformation_model
   use deformation_shapes, only: bending_unknowns
   use errors, only: error_t
@@ -17,24 +15,19 @@ module vibration_models
   private
 
   public :: mode_request_t, vibration_models_t, new_vibration_models, load_factors, &
-    chosen_method, modes_with_dampers
-  public :: by_orders, by_link_modes, by_long_mesh, by_dense, by_band, any_method
+    chosen_method, is_long_link, most_link_unknowns, modes_with_dampers
+  public :: by_orders, by_link_modes, by_dense, by_band, any_method
 
   !> Methods for the frequencies that are written: continuous links of orders chosen by the program;
-  !! the deck's mesh in deformation coordinates, from own modes of the links or by running sums; the
-  !! deck's mesh in nodal unknowns, with full or with band matrices.
-  integer, parameter :: by_orders = 1, by_link_modes = 2, by_long_mesh = 3, by_dense = 4, &
-    by_band = 5
+  !! the deck's mesh in deformation coordinates, from own modes of the links; the deck's mesh in
+  !! nodal unknowns, with full or with band matrices.
+  integer, parameter :: by_orders = 1, by_link_modes = 2, by_dense = 3, by_band = 4
 
   !> The choice is left to the program.
   integer, parameter :: any_method = 0
 
   !> Links with more unknowns than this are not decomposed into their own modes.
-  integer, parameter :: most_link_unknowns = 80
-
-  !> Modes beyond those wanted that the continuous links must also represent to the given accuracy
-  !! where they prove that no mode of a long mesh is missing.
-  integer, parameter :: long_mesh_guards = 8
+  integer, parameter :: most_link_unknowns = 200
 
   !> Accuracy of the continuous links from which the error of a mesh is estimated.
   real(wp), parameter :: judging_accuracy = 1.0e-13_wp*fineness
@@ -57,10 +50,7 @@ module vibration_models
   type :: vibration_models_t
     type(deformation_model_t) :: continuum !! continuous links of the orders that the accuracy
                                            !! requires; for every method
-    type(deformation_model_t) :: mesh      !! the deck's mesh for `by_link_modes`; its near model,
-                                           !! with continuous links in place of the long ones, for
-                                           !! `by_long_mesh`
-    type(deformation_chain_t) :: chain     !! the deck's mesh for `by_long_mesh`
+    type(deformation_model_t) :: mesh      !! the deck's mesh for `by_link_modes`
   end type vibration_models_t
 
 contains
@@ -91,7 +81,7 @@ contains
     else if (wanted /= any_method) then
       method = wanted
     else if (any(is_long_link(elements, order, sheared))) then
-      method = by_long_mesh
+      method = by_band
     else
       method = by_link_modes
     end if
@@ -124,25 +114,19 @@ contains
     type(error_t), allocatable, intent(out) :: error !! why there are no models
 
     type(order_demand_t) :: demand
-    logical :: is_long(size(structure%beams))
 
     demand%states = states
     demand%factor = load_factors(request)
     demand%modes = request%modes
-    if (request%method == by_long_mesh) demand%modes = request%modes + long_mesh_guards
     demand%bound = bound
     demand%modes = modes_with_dampers(structure, demand%modes)
     call choose_orders(structure, positions, demand, store, models%continuum, counts, error)
     if (allocated(error)) return
-    if (request%method /= by_link_modes .and. request%method /= by_long_mesh) return
-    associate (linkage => structure%linkage, beams => structure%beams, mesh => structure%mesh)
-      is_long = is_long_link(mesh%elements, mesh%order, mesh%sheared)
-      call new_deformation_model(linkage, beams, merge(0, mesh%elements, is_long), &
-        merge(models%continuum%order, mesh%order, is_long), &
-        request%lumped .and. request%axial .and. .not. is_long, models%mesh, error, store, &
-        models%continuum%degrees)
-      if (request%method == by_long_mesh) models%chain = new_deformation_chain(linkage, beams, &
-        mesh%elements, mesh%order, axial_degree(mesh%order))
+    if (request%method /= by_link_modes) return
+    associate (mesh => structure%mesh)
+      call new_deformation_model(structure%linkage, structure%beams, mesh%elements, mesh%order, &
+        spread(request%lumped .and. request%axial, 1, size(structure%beams)), models%mesh, error, &
+        store, models%continuum%degrees)
     end associate
   end subroutine new_vibration_models
 

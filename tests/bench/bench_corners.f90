@@ -69,7 +69,7 @@ contains
                new_corner("strip_40_masses", [40, 40, 40], [4, 4, 4]), &
                new_corner("strip_100_apart", [1, 1, 1], [38, 74, 72]), &
                new_corner("stout_100_apart", [1, 1, 1], [45, 84, 82]), &
-               new_corner("stout_100_elements", [100, 100, 100], [3, 3, 3]), &
+               new_corner("stout_50_elements", [50, 50, 50], [3, 3, 3]), &
                new_corner("strip_30_dense", [30, 30, 30], [3, 3, 3])]
     if (short) corners = corners([1, 4])
     do i = 1, size(corners)

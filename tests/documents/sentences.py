@@ -14,7 +14,6 @@ SENTENCES = (
      "largest_overestimates"),
     (VERIFICATION, "With four cubic elements a link SOLVER dense and band agree with deformation coordinates to {}, with thirty, "
      "where these run along the links, to {}", "nodal_thick_links"),
-    (VERIFICATION, "an error of n⁻² ({}/n² of f3)", "linear_elements"),
     (VERIFICATION, "The nodal solvers agree with each other to {} and with deformation coordinates to {}", "solvers"),
     ("docs/theory.md", "One element of order 14 in each link gives the first five frequencies to about {}.", "order_14"),
     ("inputs/thick.deck", "their frequencies ! at 0 degrees are {} to {} % higher.", "slender_excess"),
@@ -63,9 +62,6 @@ class Numbers(verification.Tables):
             found.append(max(max(verification.errors_against(self._frequencies(with_solver("thick", solver, *changes)), best))
                              for solver in ("dense", "band")))
         return [rough_error(value) for value in found]
-
-    def linear_elements(self):
-        return [Number(verification.errors_against_exact(self._long_mesh(300).rows("frequencies"), 3)[2]*300**2, ".1e")]
 
     def solvers(self):
         solved = {solver: self._frequencies(with_solver("mechanism1", solver))

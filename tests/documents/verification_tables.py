@@ -207,17 +207,6 @@ class Tables:
         for i in range(1, 6):
             yield [None, fixed(closed[i - 1], 6), None, None, fixed(row[f"f{i}"], 6)]
 
-    def _long_mesh(self, elements):
-        return self._run(deck("exact", NO_SHAPES, (r"^MESH.*", f"MESH * elements={elements}"), (r"^CRANK.*", "CRANK 0 30 60 90"),
-                              (r"^MODES.*", "MODES 3")))
-
-    def long_meshes(self):
-        for n in (300, 3000, 30000):
-            run = self._long_mesh(n)
-            rows = run.rows("frequencies")
-            worst = errors_against_exact(rows, 3)
-            yield [count(n), count(9*n)] + [error(value) for value in worst] + [estimate(largest_estimate(rows, 3)), None, None]
-
     def forward_dynamics(self):
         links = "".join(line + "\n" for line in deck("mechanism1").splitlines()
                         if re.match(r"(UNITS|MATERIAL|SECTION|GROUND|LINK|DRIVE)\b", line)) + "INERTIA distributed\n"

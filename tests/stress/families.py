@@ -30,12 +30,12 @@ def ladder(first, last, step=1):
 
 def elements():
     """Cubic elements a link, at rest and at 20 rad/s."""
-    for n in (1, 2, 3, 5, 8, 10, 20, 30, 50, 100, 200, 300, 1000, 3000, 10000, 30000):
+    for n in (1, 2, 3, 5, 8, 10, 20, 30, 50, 100, 200, 300):
         for solver in SOLVERS:
-            few = n > 500 or solver == "dense" and n > 50
+            few = solver == "dense" and n > 50
             yield Case("elements", n, solver, FIRST, (60,) if few else (0, 60, 240), (0, 20), f"MESH * elements={n}", solver,
                        same_mesh=True)
-    for n in (1, 3, 10, 30, 100, 300, 1000, 3000):
+    for n in (1, 3, 10, 30, 100, 300):
         yield Case("elements", n, "lumped", FIRST, (60,), (20,), f"MESH * elements={n}", "deformation", "lumped", same_mesh=True)
 
 
@@ -111,7 +111,7 @@ def pin_masses():
         linkage = Linkage(254, FIRST.lengths, pins=(mass, mass))
         for label, mesh, solver in ways(1, 12):
             yield Case("pin_masses", ratio, label, linkage, (0, 60, 240), (0, speed), mesh, solver)
-        yield Case("pin_masses", ratio, "long", linkage, (0, 60, 240), (0, speed), "MESH * elements=200", "deformation")
+        yield Case("pin_masses", ratio, "long", linkage, (0, 60, 240), (0, speed), "MESH * elements=100", "deformation")
         yield Case("pin_masses", ratio, "20modes", linkage, (0, 60, 240), (0, speed), modes=20)
 
 

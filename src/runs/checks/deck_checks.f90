@@ -5,6 +5,7 @@ module deck_checks
   use change_point_checks, only: warn_of_change_points
   use column_checks, only: check_columns
   use crank_cycle, only: turns_freely
+  use deformation_shapes, only: bending_unknowns
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use drawing_checks, only: check_drawing
   use errors, only: error_of_reach
@@ -14,7 +15,7 @@ module deck_checks
   use linkage_parts, only: assemble_linkage, assembly_t
   use mechanisms, only: mechanism_of, mechanism_t
   use models, only: is_four_bar, model_t, needs_frequencies, needs_response, pivots, &
-    report_number, solver_band, solver_dense, steady_state_report
+    report_number, solver_band, solver_deformation, solver_dense, steady_state_report
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
   use plan_faults, only: report_problem
@@ -24,8 +25,10 @@ module deck_checks
   use round_off, only: round_off_error
   use sorting, only: ascending_order
   use structures, only: elements_replaced, has_beams, has_mesh, structure_t
+  use study_requests, only: method_wanted
   use text, only: plural, to_string
   use tokens, only: token_t
+  use vibration_models, only: by_link_modes, chosen_method, is_long_link, most_link_unknowns
   implicit none (type, external)
   private
 
@@ -108,8 +111,12 @@ contains
     ! lose no digits.
     if (mechanism%accuracy > 0.0_wp) return
     call check_unknowns(model, mechanism, diagnostics)
-    if (has_errors(diagnostics) .or. all(model%solver /= [solver_dense, solver_band])) return
-    call check_round_off(model, mechanism, diagnostics)
+    call check_long_links(model, mechanism, diagnostics)
+    if (has_errors(diagnostics)) return
+    associate (mesh => mechanism%mesh)
+      if (chosen_method(method_wanted(model), .false., mesh%elements, mesh%order, mesh%sheared) /= &
+        by_link_modes) call check_round_off(model, mechanism, diagnostics)
+    end associate
   end subroutine check_matrices
 
   !> One link is longer than all the others together.
@@ -185,6 +192,34 @@ contains
     end if
   end subroutine check_unknowns
 
+  !> Refuses links with too many unknowns for own modes where these are asked for, or where band
+  !! matrices cannot take their place.
+  subroutine check_long_links(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: instead
+    logical :: has_band
+    integer :: body
+
+    if (any(model%solver == [solver_dense, solver_band])) return
+    has_band = .not. any(model%links%rigid) .and. all(model%links%material > 0)
+    if (has_band) has_band = .not. any(model%materials(model%links%material)%is_massless)
+    if (has_band .and. model%solver /= solver_deformation) return
+    instead = ""
+    if (has_band) instead = ", SOLVER band"
+    associate (mesh => mechanism%mesh)
+      body = findloc(is_long_link(mesh%elements, mesh%order, mesh%sheared), .true., dim=1)
+      if (body == 0) return
+      call add_error(diagnostics, model%meshes(model%links(mechanism%links(body))%mesh)%keyword, &
+        "link '"//mechanism%names(body)%text//"' has too many unknowns on this mesh: "// &
+        to_string(mesh%elements(body)*bending_unknowns(mesh%order(body), mesh%sheared))// &
+        ", and links are decomposed into own modes up to "//to_string(most_link_unknowns)// &
+        "; expected fewer elements"//instead//", or 'accuracy=' in place of 'elements='")
+    end associate
+  end subroutine check_long_links
+
   !> Refuses a mesh so fine that the rounding of its matrices spoils the lowest frequencies.
   !!
   !! The bound is `ε‖K_e‖/(λ‖M_e‖)`, at the median of the positions: one position near a dead point
@@ -209,7 +244,8 @@ contains
       if (bound <= most_round_off) cycle
       if (bound_of(elements_replaced(mechanism%structure_t, spread(1, 1, size(mechanism%beams))), &
         body, lambda((samples + 1)/2)) <= most_round_off) then
-        fault = "this mesh is too fine for double precision: use fewer elements"
+        fault = "this mesh is too fine for double precision: use fewer elements, "// &
+          "or 'accuracy=' in place of 'elements='"
       else
         fault = "link '"//mechanism%names(body)%text//"' is too slender for double precision"
       end if

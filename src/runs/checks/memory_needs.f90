@@ -4,7 +4,7 @@
 !! measured with the peak memory of the process.
 module memory_needs
   use available_memory, only: available_memory_t, memory_text
-  use beam_element, only: axial_degree, element_unknowns
+  use beam_element, only: element_unknowns
   use deformation_shapes, only: bending_unknowns
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_memory
@@ -16,7 +16,7 @@ module memory_needs
   use study_requests, only: method_wanted, motion_instants_of
   use text, only: plural, to_string
   use tokens, only: token_t
-  use vibration_models, only: by_band, by_dense, by_long_mesh, chosen_method
+  use vibration_models, only: by_band, by_dense, chosen_method
   implicit none (type, external)
   private
 
@@ -244,11 +244,6 @@ contains
       needs(of_matrices)%what = "band matrices of "//to_string(unknowns, 9)//" unknowns"
       needs(of_matrices)%bytes = number*unknowns*band_numbers(model%modes, &
         maxval(element_unknowns(order, model%shear)))
-    case (by_long_mesh)
-      unknowns = &
-        sum(real(elements, wp)*(bending_unknowns(order, model%shear) + axial_degree(order)))
-      needs(of_matrices)%what = "vectors of "//to_string(unknowns, 9)//" unknowns"
-      needs(of_matrices)%bytes = threads*number*unknowns*chain_numbers(model%modes)
     end select
   end subroutine add_needs_of_mesh
 
@@ -269,14 +264,5 @@ contains
 
     numbers = 8.0_wp*bandwidth + max(2*modes + 1, 20) + 2*modes + 8
   end function band_numbers
-
-  !> Reals per unknown for running sums: the basis of `subspace_eigensolver` and its two products,
-  !! nine vectors per mode each; other vectors.
-  pure function chain_numbers(modes) result(numbers)
-    integer, intent(in) :: modes
-    real(wp) :: numbers
-
-    numbers = 27.0_wp*modes + 4*modes + 14
-  end function chain_numbers
 
 end module memory_needs

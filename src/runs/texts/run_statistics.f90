@@ -6,7 +6,7 @@ module run_statistics
   use run_totals, only: run_totals_t
   use sweeps, only: sweep_t
   use text, only: plural, to_string
-  use vibration_models, only: by_band, by_dense, by_link_modes, by_long_mesh, by_orders
+  use vibration_models, only: by_band, by_dense, by_link_modes, by_orders
   implicit none (type, external)
   private
 
@@ -81,8 +81,7 @@ contains
         to_string(counts%reduced_solutions)//", solved in full "// &
         to_string(counts%full_solutions)//line_feed
       text = text//name//": factorizations, one per inverse iteration or count, "// &
-        to_string(counts%factorizations)//", products with a long mesh "// &
-        to_string(counts%operator_products)//line_feed
+        to_string(counts%factorizations)//line_feed
       text = text//name//": proofs that no mode is missing "//to_string(counts%proofs)// &
         ", mode shapes "//to_string(counts%shapes)//line_feed
       if (totals%positions < totals%rows) then
@@ -110,17 +109,15 @@ contains
     integer :: unknowns
 
     unknowns = mesh%unknowns
-    if (.not. all(sweep%models%continuum%links%bends)) then
-      if (sweep%request%method == by_link_modes) unknowns = sweep%models%mesh%layout%unknowns
-      if (sweep%request%method == by_long_mesh) unknowns = sweep%models%chain%unknowns
-    end if
+    if (.not. all(sweep%models%continuum%links%bends) .and. sweep%request%method == &
+      by_link_modes) unknowns = sweep%models%mesh%layout%unknowns
     select case (sweep%request%method)
     case (by_orders)
       text = "orders chosen by the program, one element per link"// &
         between_masses(sweep%models%continuum)//": "//orders_of(sweep%models%continuum)// &
         ", solved in deformation coordinates: "// &
         to_string(sweep%models%continuum%layout%unknowns)//" unknowns"
-    case (by_link_modes, by_long_mesh)
+    case (by_link_modes)
       text = "mesh of the deck, solved in deformation coordinates: "//to_string(unknowns)// &
         " unknowns"
     case (by_dense)
