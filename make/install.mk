@@ -1,0 +1,19 @@
+# Program, plots, library, manual pages and completions below DESTDIR/PREFIX.
+.PHONY: install
+
+there = $$DESTDIR$$PREFIX
+share = $(there)/share
+# Not `all`: `sudo make install` after `make` must not write into build/ as root.
+install:
+	@test -x $(program) || { echo "make: nothing is built yet; say: make" >&2; exit 2; }
+	install -d -- "$(there)/bin" "$(share)/flexmech" "$(share)/man/man1" \
+	    "$(share)/bash-completion/completions" "$(share)/zsh/site-functions" "$(share)/fish/vendor_completions.d"
+	install -m 755 -- $(program) "$(there)/bin/flexmech"
+	cp -R -- plots library "$(share)/flexmech/"
+	install -m 755 -- plots/flexmech-plot "$(there)/bin/flexmech-plot"
+	$(program) --man > "$(share)/man/man1/flexmech.1"
+	$(program) --completion bash > "$(share)/bash-completion/completions/flexmech"
+	$(program) --completion zsh > "$(share)/zsh/site-functions/_flexmech"
+	$(program) --completion fish > "$(share)/fish/vendor_completions.d/flexmech.fish"
+	sh plots/flexmech-plot --help | awk -v version="$$($(program) --version)" -f plots/manual_page.awk > "$(share)/man/man1/flexmech-plot.1"
+	sh plots/flexmech-plot --help | awk -f plots/completion.awk > "$(share)/bash-completion/completions/flexmech-plot"
