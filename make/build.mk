@@ -38,13 +38,14 @@ endif
 found   := $(filter-out %/ranks_mpi.f90,$(wildcard src/*.f90 src/*/*.f90 src/*/*/*.f90))
 sources := $(filter-out $(addprefix %/,$(notdir $(instead))),$(found)) $(instead)
 modules := $(patsubst %.f90,$(build)/%.o,$(filter-out main.f90,$(notdir $(sources))))
-# What only tests use; the first is one of the modules of the quadruple build.
-test_modules := $(filter-out $(modules),$(build)/symmetric_eigensolver.o) $(build)/computed_decks.o $(build)/total_reactions.o $(build)/response_cases.o $(build)/sample_linkages.o $(build)/part_samples.o
+# What only tests use; modules of the quadruple build that the others do not have are among them.
+test_sources := $(filter-out $(addprefix %/,$(notdir $(sources)) funit.f90),$(wildcard tests/quad/*.f90 $(support)/*.f90))
+test_modules := $(patsubst %.f90,$(build)/%.o,$(notdir $(test_sources)))
 # Of two files of one name the first is meant.
 vpath %.f90 $(sort $(dir $(instead))) $(sort $(dir $(sources))) tests/quad $(support)
 
 # Found anew at every call (it takes milliseconds), so that dependencies are never older than the sources.
-$(shell mkdir -p $(build)/funit $(build)/pfunit && makedepf90 -b '$$(build)' $(sources) > $(build)/dependencies.mk)
+$(shell mkdir -p $(build) && makedepf90 -b '$$(build)' $(sources) > $(build)/dependencies.mk)
 include $(build)/dependencies.mk
 
 # A .mod whose source was removed or renamed would hide a missing module.
@@ -62,8 +63,6 @@ $(build)/command: ;
 $(build)/%.o: %.f90 $(build)/command
 	@echo "$(FC) ($(kind)) $<"
 	$(compile) $(options) -c $< -o $@
-
-$(test_modules): $(build)/kinds.o
 
 $(build)/flexmech: $(modules) $(build)/main.o
 	@echo "link $@"

@@ -5,7 +5,7 @@ $(error PFUNIT_DIR: there is no include/PFUNIT.mk below $(PFUNIT_DIR))
 endif
 include $(pfunit_mk)
 
-pfunit_compile = $(compile) -ffree-line-length-none $(fast_$(kind)) -I$(build) $(PFUNIT_EXTRA_FFLAGS)
+pfunit_compile = $(compile) -ffree-line-length-none $(fast) -I$(build) $(PFUNIT_EXTRA_FFLAGS)
 
 define newline
 
@@ -17,6 +17,7 @@ $(call remember,$(build)/pfunit/unit_tests.inc,$(call suites,$(tests)))
 $(call remember,$(build)/pfunit/must_fail.inc,$(call suites,test_must_fail))
 $(build)/pfunit/%.inc: ;
 
+vpath test_must_fail.pf $(support)
 # The preprocessor of pFUnit wants the file in the current folder.
 $(build)/pfunit/%.F90: %.pf
 	cp $< $(@D)/
@@ -38,3 +39,7 @@ $(build)/pfunit/unit_tests: $(build)/pfunit/unit_tests_driver.o $(tests:%=$(buil
 
 $(build)/pfunit/must_fail: $(build)/pfunit/must_fail_driver.o $(build)/pfunit/test_must_fail.o
 	$(pfunit_compile) $^ $(PFUNIT_LIBRARIES) -o $@
+
+# Keep what is made on the way. (A .SECONDARY: without names would keep everything, but make then walks every path through the
+# dependencies of an empty build folder: a minute.)
+.PRECIOUS: $(build)/pfunit/%.F90 $(build)/pfunit/%.inc

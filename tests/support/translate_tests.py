@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Turns unit tests written for pFUnit 4 (tests/unit/test_*.pf) into Fortran for the bundled module `funit`.
 
-    translate_tests.py test_x.pf OUTPUT.F90          one test module, and a module with its list of tests behind it
-    translate_tests.py --driver OUTPUT.f90 test_x... the program that runs the tests of all the named modules
+    translate_tests.py FOLDER PROGRAM test_x.pf ...
 
-Line marks keep the compiler's messages, and the assertions' own, pointing at the .pf file.
+writes into the folder a test_x.F90 for each, the module and one with its list of tests behind it, and PROGRAM.f90, which runs the tests
+of all; only what has changed is written. Line marks keep the compiler's messages, and the assertions' own, pointing at the .pf file.
 """
 
 import os
@@ -127,14 +127,23 @@ def driver(modules):
     ]
 
 
-def main(arguments):
-    if arguments[0] == "--driver":
-        output, lines = arguments[1], driver(arguments[2:])
-    else:
-        output, lines = arguments[1], translate(arguments[0])
-    with open(output, "w", encoding="utf-8") as target:
-        target.write("\n".join(lines) + "\n")
+def keep(path, lines):
+    """Write a file, unless it is there with these lines: what is compiled from it stays up to date."""
+    text = "\n".join(lines) + "\n"
+    if os.path.exists(path):
+        with open(path, encoding="utf-8") as earlier:
+            if earlier.read() == text:
+                return
+    with open(path, "w", encoding="utf-8") as target:
+        target.write(text)
+
+
+def main(folder, name, *paths):
+    modules = [os.path.splitext(os.path.basename(path))[0] for path in paths]
+    for module, path in zip(modules, paths):
+        keep(os.path.join(folder, module + ".F90"), translate(path))
+    keep(os.path.join(folder, name + ".f90"), driver(modules))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main(*sys.argv[1:])
