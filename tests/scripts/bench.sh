@@ -7,7 +7,7 @@ out=$scratch/bench
 precision=$out/work_precision.dat
 
 short_run() {
-  timeout 300 "$bench" "$program" "$out" reference short >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
+  timeout "$longest" "$bench" "$program" "$out" reference short >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
   found=$?
   [ $found -eq 0 ] || { echo "status $found; it said:"; head -n 5 "$scratch/stderr"; return 1; }
 }

@@ -45,7 +45,7 @@ draw() {
   drawn_deck=$1
   shift
   run 0 --quiet --out "$scratch/out" "$scratch/$drawn_deck.deck" || return 1
-  timeout 300 sh plots/draw_figures.sh --format svg "$@" "$scratch/out/$drawn_deck" >"$scratch/stdout" 2>"$scratch/stderr" ||
+  timeout "$longest" sh plots/draw_figures.sh --format svg "$@" "$scratch/out/$drawn_deck" >"$scratch/stdout" 2>"$scratch/stderr" ||
     { echo "status $?; it said:"; cat "$scratch/stderr"; return 1; }
   silent
 }

@@ -14,7 +14,7 @@ drawn() {
   shift 2
   option=
   [ "$kind" = figures ] || option=--animate
-  timeout 300 sh plots/draw_figures.sh $option "$folder" >"$scratch/stdout" 2>"$scratch/stderr" || {
+  timeout "$longest" sh plots/draw_figures.sh $option "$folder" >"$scratch/stdout" 2>"$scratch/stderr" || {
     echo "status $?; it said:"
     cat "$scratch/stderr"
     return 1
@@ -325,7 +325,7 @@ without_program() {
   rm -rf "$scratch/share"
   cp -R plots "$scratch/share" || return 1
   run 0 --quiet --out "$scratch/out" inputs/rigid.deck || return 1
-  FLEXMECH= timeout 300 sh "$scratch/share/draw_figures.sh" "$scratch/out/rigid" >"$scratch/stdout" 2>"$scratch/stderr" ||
+  FLEXMECH= timeout "$longest" sh "$scratch/share/draw_figures.sh" "$scratch/out/rigid" >"$scratch/stdout" 2>"$scratch/stderr" ||
     { cat "$scratch/stderr"; return 1; }
   says "drawing a linkage needs echo.deck and the program flexmech" && grep -q /motion.png "$scratch/stdout" || return 1
   ! grep -q -e special_positions -e coupler_curve "$scratch/stdout" || { echo "it has drawn a linkage"; return 1; }
@@ -460,7 +460,7 @@ END_OF_PYTHON
 installed_plots() {
   rm -rf "$scratch/share" "$scratch/draw"
   cp -R plots "$scratch/share" && ln -s share/draw_figures.sh "$scratch/draw" || return 1
-  FLEXMECH=$program timeout 300 sh "$scratch/draw" "$scratch/out/kinematics" >"$scratch/stdout" 2>"$scratch/stderr" ||
+  FLEXMECH=$program timeout "$longest" sh "$scratch/draw" "$scratch/out/kinematics" >"$scratch/stdout" 2>"$scratch/stderr" ||
     { cat "$scratch/stderr"; return 1; }
   silent && [ "$(wc -l <"$scratch/stdout")" -eq 3 ]
 }
@@ -548,7 +548,7 @@ END_OF_TITLES
     { printf 'TITLE    %s\n' "$title" && sed '/^TITLE/d; /^REPORT/d; /^END/d' inputs/kinematics.deck && echo "REPORT kinematics"; } \
       >"$scratch/title$number.deck"
     run 0 --quiet --out "$scratch/out" "$scratch/title$number.deck" || return 1
-    timeout 60 sh plots/draw_figures.sh --format svg "$scratch/out/title$number" >"$scratch/stdout" 2>"$scratch/stderr" ||
+    timeout "$longest" sh plots/draw_figures.sh --format svg "$scratch/out/title$number" >"$scratch/stdout" 2>"$scratch/stderr" ||
       { echo "$title:"; head -c 300 "$scratch/stderr"; return 1; }
     sed 's/<[^>]*>//g' "$scratch/out/title$number/figures/kinematics_angles.svg" | sed 's/^[ 	]*//' | grep -qxF -e "$title" ||
       { echo "no heading '$title'"; return 1; }
@@ -562,7 +562,7 @@ one_fails() {
   cp -R plots "$scratch/share" && run 0 --quiet --out "$scratch/out" "$scratch/partly.deck" || return 1
   for script in kinematics pin_motion; do
     cp plots/*.gp "$scratch/share" && sed -i '1i plot no_such_thing' "$scratch/share/$script.gp" || return 1
-    FLEXMECH=$program timeout 100 sh "$scratch/share/draw_figures.sh" "$scratch/out/partly" >"$scratch/stdout" 2>"$scratch/stderr"
+    FLEXMECH=$program timeout "$longest" sh "$scratch/share/draw_figures.sh" "$scratch/out/partly" >"$scratch/stdout" 2>"$scratch/stderr"
     [ $? -eq 1 ] || { echo "status is not 1"; return 1; }
     says "not drawn" && says "/figures/$script" && ! grep -q "/$script" "$scratch/stdout" || return 1
     case $script in

@@ -12,7 +12,7 @@ esac
 plot() {
   wanted=$1
   shift
-  timeout 120 plots/flexmech-plot "$@" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
+  timeout "$longest" plots/flexmech-plot "$@" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
   found=$?
   [ $found -eq "$wanted" ] && return
   echo "flexmech-plot $*: status $found, not $wanted; it said:"

@@ -147,16 +147,13 @@ study() {
 }
 place=$scratch/study
 mkdir "$place"
-# So many variants that they take about eight seconds on this machine, by the shortest of three runs of a hundred.
+# So many variants that they take about ten seconds of a processor, by a run of a hundred.
 study "100 to 300 step 2" >"$scratch/probe.deck"
-shortest=8000
-for attempt in 1 2 3; do
-  begin=$(date +%s%N)
-  run 1 --out "$scratch/probe" "$scratch/probe.deck"
-  took=$((($(date +%s%N) - begin)/1000000))
-  [ $took -ge $shortest ] || shortest=$took
-done
-step=$(awk -v took="$shortest" 'BEGIN { printf "%.4f\n", 2*(took < 20 ? 20 : took)/8000 }')
+spend
+begun=$spent
+run 1 --out "$scratch/probe" --threads 1 "$scratch/probe.deck"
+spend
+step=$(awk -v took=$((spent - begun)) 'BEGIN { printf "%.4f\n", 2*(took < 20 ? 20 : took)/10000 }')
 study "100 to 300 step $step" >"$place/my.deck"
 run 1 --out "$scratch/whole" --threads 2 "$place/my.deck"
 

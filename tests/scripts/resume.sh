@@ -2,9 +2,8 @@
 # --resume: a run that was killed goes on, and ends with the bytes of an undisturbed one.
 . tests/scripts/functions.sh
 
-# killed SIGNAL OUT DECK OPTION...: a run that is sent a signal when its journal has grown for a while. How long a run takes is only
-# known from an earlier one, and other work on the machine changes it: where the run ended before the signal came, it is begun anew
-# and sent the signal sooner.
+# killed SIGNAL OUT DECK OPTION...: a run that is sent a signal when its journal has grown for a while. Where the run ended before the
+# signal came, it is begun anew and sent the signal sooner.
 killed() {
   rm -rf "$scratch/begun"
   [ ! -e "$2" ] || cp -r "$2" "$scratch/begun"
@@ -18,7 +17,7 @@ killed() {
   return 1
 }
 
-# killed_after SECONDS SIGNAL OUT DECK OPTION...: likewise, the seconds after the first bytes of the journal.
+# killed_after SECONDS SIGNAL OUT DECK OPTION...: likewise, the seconds after the first bytes that the run adds to the journal.
 killed_after() {
   cat >"$scratch/kill.sh" <<'END_OF_JOB'
 signal=$1
@@ -26,11 +25,14 @@ journal=$2
 told=$3
 growth=$4
 shift 4
+bytes() {
+  wc -c 2>/dev/null <"$journal" || echo 0
+}
+before=$(bytes)
 python3 -c "$hearing" "$@" 2>"$told" &
-tries=0
-while [ ! -s "$journal" ] && kill -0 $! && [ $tries -lt 1000 ]; do
+# One that goes on from a journal cuts a torn end off first, and adds to it later.
+while [ "$(bytes)" -le "$before" ] && kill -0 $!; do
   sleep 0.02
-  tries=$((tries + 1))
 done
 sleep "$growth"
 kill -s "$signal" $!
@@ -58,28 +60,27 @@ vary_deck() {
     sed 's/length=279.4/length=$b/'
 }
 
-# step_for MAKER STEP: the step with which a deck takes about three seconds on this machine when it has nothing else to do, by the
-# shortest of three runs; with STEP it takes a tenth or so of it.
-step_for() {
-  "$1" "$2" >"$scratch/probe.deck"
-  shortest=3000
-  for attempt in 1 2 3; do
-    begin=$(date +%s%N)
-    run 0 --out "$scratch/probe" "$scratch/probe.deck"
-    took=$((($(date +%s%N) - begin)/1000000))
-    [ $took -ge $shortest ] || shortest=$took
+# long_deck NAME STEP: a deck that takes five seconds of a processor. What takes the same time for any step is no longer much the second
+# time.
+long_deck() {
+  step=$2
+  for attempt in 1 2; do
+    "$1_deck" "$step" >"$scratch/probe.deck"
+    spend
+    begun=$spent
+    run 0 --out "$scratch/probe" --threads 1 "$scratch/probe.deck"
+    spend
+    step=$(awk -v step="$step" -v took=$((spent - begun)) 'BEGIN {
+      step *= (took < 1 ? 1 : took)/5000
+      printf "%.6f\n", step < 0.0004 ? 0.0004 : step
+    }')
   done
-  awk -v step="$2" -v took="$shortest" 'BEGIN {
-    step *= (took < 1 ? 1 : took)/3000
-    printf "%.6f\n", step < 0.0004 ? 0.0004 : step
-  }'
+  "$1_deck" "$step" >"$scratch/$1.deck"
+  run 0 --out "$scratch/whole" --format csv "$scratch/$1.deck"
 }
 
-sweep_deck "$(step_for sweep_deck 0.25)" >"$scratch/sweep.deck"
-vary_deck "$(step_for vary_deck 0.5)" >"$scratch/vary.deck"
-for name in sweep vary; do
-  run 0 --out "$scratch/whole" --format csv "$scratch/$name.deck"
-done
+long_deck sweep 0.25
+long_deck vary 0.5
 
 # complete OUT NAME: the files of a run that nobody disturbed, and no journal.
 complete() {
@@ -126,7 +127,7 @@ blocks_told() {
   sed -n 's/.*resumed with \([0-9]*\) .*/\1/p' "$scratch/stderr"
 }
 interrupted_and_resumed() {
-  killed INT "$scratch/interrupted" "$scratch/vary.deck" --format csv && says "; --resume continues from what it has computed" || return 1
+  killed INT "$scratch/interrupted" "$scratch/vary.deck" --format csv --threads 2 && says "; --resume continues from what it has computed" || return 1
   resumed vary "$scratch/interrupted" && [ "$(blocks_told)" -gt 0 ]
 }
 check "an interrupted run continues" interrupted_and_resumed
@@ -136,7 +137,7 @@ twice() {
   rm -rf "$scratch/again"
   cp -r "$scratch/killed" "$scratch/again"
   first=$(wc -c <"$scratch/again/sweep/resume.part")
-  killed INT "$scratch/again" "$scratch/sweep.deck" --format csv --resume || return 1
+  killed INT "$scratch/again" "$scratch/sweep.deck" --format csv --threads 2 --resume || return 1
   [ "$(wc -c <"$scratch/again/sweep/resume.part")" -ge "$first" ] || { echo "the journal has become shorter"; return 1; }
   resumed sweep "$scratch/again"
 }
