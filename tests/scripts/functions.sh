@@ -5,10 +5,8 @@ scratch=$2
 # Seconds; a command that takes longer hangs, on a busy machine too.
 longest=3000
 
-# check NAME COMMAND...: one test; the command is silent when all is well, and else prints why not. SLOW_CHECKS: names, with | around
-# each, of tests that check.py leaves to `make check-all`.
+# check NAME COMMAND...: one test; the command is silent when all is well, and else prints why not.
 check() {
-  case $SLOW_CHECKS in *"|$1|"*) return ;; esac
   test_name=$1
   shift
   if why=$("$@" 2>&1); then

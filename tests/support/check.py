@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Runs the tests on what `make check` has built; the last line printed is the count.
 
-    check.py UNIT_TESTS          the program of unit tests below build/release and build/debug, funit/… or pfunit/…
-    check.py --slow UNIT_TESTS   what `make check` leaves to `make check-all`: the same tests in the other build, and slow decks
+    check.py UNIT_TESTS          the program of unit tests below build/release, funit/… or pfunit/…
+    check.py --slow UNIT_TESTS   what `make check` leaves to `make check-all`: slow tests, and all of the debug build
 
-Everything is written below build/check/. Exit status 1 when a test has failed.
+Everything is written below build/check/. Exit status 1 when a test has failed. Seconds are those of processors, of which other work on
+the machine changes little.
 """
 
 import contextlib
@@ -13,34 +14,50 @@ import io
 import multiprocessing
 import os
 import re
+import resource
 import shutil
 import subprocess
 import sys
-import time
 from glob import glob
 
 import compare_tables
-import fuzz
 
 SCRATCH = os.path.join("build", "check")
 COUNT = os.path.join("build", "check.count")
-BUILDS = ("release", "debug")
 LONGEST = 3600  # seconds; a test that takes longer hangs, on a busy machine too
-FUZZED = 500   # decks; `make fuzz` runs more
-# They take seconds each; run once in both builds, and elsewhere by `make check-all` only.
-SLOW_DECKS = ["campbell", "damped_engine", "stability", "strains", "transient"]
+SHARES = 24    # of the unit tests: the program is run so many times, each time with other modules
+
+# `make check` is to take eight minutes on two processors, and compiling the program and the tests takes six of them. So it compiles one
+# build, as users have it, and what is below, and all of the debug build, wait for `make check-all`.
+SLOW_DECKS = ["campbell", "damped_engine", "stability", "strains", "transient"]  # of inputs/
+SLOW_GROUPS = ["bench", "failed_variants", "figure_extents", "figures", "flexmech_plot", "interruption", "job_scripts", "memory", "mpi",
+               "numbers_of_documents", "parts", "random_linkages", "resume", "running", "stability", "summary", "threads",
+               "vibrations"]  # scripts and procedures below
+SLOW_TESTS = [module + " " for module in (
+    "test_instability_intervals", "test_damped_eigensolver", "test_report_table_rows", "test_transient_responses", "test_path_grids",
+    "test_exact_frequencies", "test_steady_responses", "test_campbell_study", "test_deformation_model", "test_order_errors",
+    "test_transient_motions", "test_campbell", "test_critical_speeds", "test_response_study", "test_frequency_study", "test_held_ends",
+    "test_slow_motions", "test_stability", "test_crank_limits")]  # unit tests that hold one of these
+# Seconds of jobs that take more than others: these are begun first, or one processor would wait for another in the end.
+SECONDS = {}
 # The C library has other sin, cos and exp for other processors; without all of these it has those of the oldest.
 OLDEST = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX512F,-AVX512DQ,-AVX512BW,-AVX512VL,-AVX2,-FMA,-FMA4"}
+
+
+def processor_seconds():
+    """Of this process and of those that it has waited for."""
+    used = [resource.getrusage(which) for which in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(one.ru_utime + one.ru_stime for one in used)
 
 
 class Group:
     """The results of one kind of test: failures at once, one line in the end."""
 
-    passed = failed = 0  # over all groups
+    ended = []  # groups of this process
 
-    def __init__(self, title):
-        self.title, self.passed, self.failed, self.skipped = title, 0, 0, 0
-        self.started = time.monotonic()
+    def __init__(self, title, shares=1):
+        self.title, self.shares, self.passed, self.failed, self.skipped = title, shares, 0, 0, 0
+        self.seconds = processor_seconds()
 
     def result(self, name, why=None):
         """One test: passed, unless there is a reason why not."""
@@ -72,10 +89,20 @@ class Group:
             self.result(os.path.relpath(run.args[0]), "ran no test")
 
     def end(self):
+        self.seconds = processor_seconds() - self.seconds
+        Group.ended.append(self)
+
+    def add(self, other):
+        """Another share of the same tests."""
+        self.passed += other.passed
+        self.failed += other.failed
+        self.skipped += other.skipped
+        self.seconds += other.seconds
+        self.shares -= 1
+
+    def line(self):
         skipped = f", {self.skipped} skipped" if self.skipped else ""
-        print(f"{self.title:<32}{self.passed:5d} passed, {self.failed:3d} failed, {time.monotonic() - self.started:5.0f} s{skipped}", flush=True)
-        Group.passed += self.passed
-        Group.failed += self.failed
+        return f"{self.title:<32}{self.passed:5d} passed, {self.failed:3d} failed, {self.seconds:5.0f} s{skipped}"
 
 
 def execute(command, folder=".", environment=None):
@@ -103,14 +130,33 @@ def base_name(path):
     return os.path.splitext(os.path.basename(path))[0]
 
 
-def unit_tests(build, path):
-    group = Group(f"unit tests, {build}")
+def unit_test_jobs(build, path, only_slow=False):
+    """The unit tests in shares, a process each: in the release build without the slow ones, or only these. pFUnit's are one process."""
+    if not path.startswith("funit"):
+        return [] if only_slow else [(unit_tests, build, path, 0, 1, [])]
+    modules = [base_name(file) + " " for file in sorted(glob(os.path.join("tests", "unit", "**", "test_*.pf"), recursive=True))]
+    if only_slow:
+        shares = [[test] for test in SLOW_TESTS]
+    elif build == "release":
+        quick = [module for module in modules if module not in SLOW_TESTS]
+        shares = [quick[share::SHARES] + ["-" + test for test in SLOW_TESTS] for share in range(SHARES)]
+    else:
+        shares = [modules[share::SHARES] for share in range(SHARES)]
+    return [(unit_tests, build, path, number, len(shares), words) for number, words in enumerate(shares)]
+
+
+def unit_tests(build, path, share, shares, words):
+    """Tests that hold one of the words, but none behind a minus; without any, all."""
+    group = Group(f"unit tests, {build}", shares)
     # They write files beside themselves, and know the library from the checkout.
-    folder = fresh("unit", build)
+    folder = fresh("unit", build, str(share))
     os.symlink(os.path.abspath("library"), os.path.join(folder, "library"))
-    run = execute([os.path.abspath(os.path.join("build", build, path))], folder)
+    run = execute([os.path.abspath(os.path.join("build", build, path))] + words, folder)
     if path.startswith("funit"):
         group.lines(run)
+        for word in words:
+            if run.returncode >= 0 and word[0] != "-" and "\n# " + word not in "\n" + run.stdout:
+                group.result(word.strip(), "no test of it was run")
     else:
         ok = re.search(r"^ *OK\s+\((\d+) tests?", run.stdout, re.MULTILINE)
         bad = re.search(r"Tests run: (\d+), Failures: (\d+), Errors: (\d+)", run.stdout)
@@ -151,6 +197,12 @@ def layers():
 def documents():
     group = Group("documents")
     group.lines(execute([sys.executable, "-B", os.path.join("tests", "support", "check_documents.py")]))
+    group.end()
+
+
+def numbers_of_documents():
+    """The numbers that `make documents` writes."""
+    group = Group("numbers of documents")
     group.lines(execute([sys.executable, "-B", os.path.join("tests", "documents", "documents.py"), program("release")]))
     group.end()
 
@@ -190,7 +242,7 @@ def random_linkages():
     group.end()
 
 
-def linkages_that_vibrate():
+def vibrations():
     """Exact frequencies, and a few random linkages; `make vibrations` compares more."""
     group = Group("vibrations, release")
     folder = os.path.join("tests", "linkages")
@@ -234,16 +286,18 @@ def run_deck(group, build, deck, out, options=(), environment=None):
     return False
 
 
-def goldens(build, environment=None):
+def goldens(build, decks, environment=None):
     """The tables of inputs/ are those kept, on this processor or on another one, and the same bytes on one thread and on three."""
     where = ", oldest processor" if environment else ""
-    group = Group(f"goldens, {build}{where}")
+    group = Group(f"goldens, {build}{where}, {decks} decks")
     repeated = Group("the same bytes, 1 and 3 threads")
     group.result("compare_tables.py --self-check", "\n".join(compare_tables.self_check()) or None)
     for deck in sorted(glob(os.path.join("inputs", "*.deck"))):
+        if decks != "all" and (base_name(deck) in SLOW_DECKS) != (decks == "slow"):
+            continue
         case = base_name(deck)
         kept = os.path.join("tests", "golden", case)
-        out = fresh("oldest" if environment else "golden", build)
+        out = fresh("oldest" if environment else "golden", build, decks)
         if not os.path.isdir(kept):
             group.result(deck, f"no {kept}/; say: make golden CASE={case}")
         elif run_deck(group, build, deck, out, ["--threads", "3"], environment=environment):
@@ -257,7 +311,7 @@ def goldens(build, environment=None):
                     group.result(name, f"a new table; say: make golden CASE={case}")
                 else:
                     group.result(name, compare_tables.difference(os.path.join(kept, table), os.path.join(out, case, table)))
-            if build == "release" and not environment and case not in SLOW_DECKS:
+            if build == "release" and not environment:
                 same_bytes(repeated, deck, os.path.join(out, case))
     for kept in sorted(glob(os.path.join("tests", "golden", "*", ""))):
         case = os.path.basename(os.path.dirname(kept))
@@ -293,67 +347,79 @@ def threads():
     group.end()
 
 
-def script(build, name, left_out=SLOW_DECKS):
-    """A script, of all decks but for some of inputs/."""
-    group = Group(f"{name}.sh, {build}" + ("" if left_out else ", all decks"))
+def script(build, name, whole=False):
+    """A script, without slow decks and tests, or whole."""
+    group = Group(f"{name}.sh, {build}" + (", whole" if whole else ""))
     path = os.path.join("tests", "scripts", name + ".sh")
     if os.access(path, os.X_OK):
-        group.lines(execute([os.path.abspath(path), program(build), fresh("scripts", build, name)], environment={"SLOW_DECKS": "|".join(left_out)}))
+        group.lines(execute([os.path.abspath(path), program(build), fresh("scripts", build, name)],
+                            environment={} if whole else {"SLOW_DECKS": "|".join(SLOW_DECKS)}))
     else:
         group.result(path, "is not executable")
     group.end()
 
 
-def fuzzed_decks():
-    group = Group("fuzzed decks, debug")
-    faults = []
-    fuzz.fuzz("debug", FUZZED, 1, faults.append)
-    for fault in faults:
-        group.result(*fault.split(": ", 1))
-    group.passed = FUZZED - len(faults)
-    group.end()
-
-
-def stage(job):
-    """Makes one group in a process of its own: what it prints, and its counts."""
+def perform(job):
+    """Makes a job in a process of its own: what it prints, and its groups."""
     test, *arguments = job
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
         test(*arguments)
-    counts = Group.passed, Group.failed
-    Group.passed = Group.failed = 0
-    return printed.getvalue(), *counts
+    ended, Group.ended = Group.ended, []
+    return printed.getvalue(), ended
+
+
+def seconds_of(job):
+    """How long a job takes, about."""
+    words = [job[0].__name__] + [word for word in job[1:] if isinstance(word, str)]
+    return max(SECONDS.get(" ".join(words[:n]), 0) for n in range(1, len(words) + 1))
+
+
+def jobs_of_release(tests):
+    """Tests of the release build but for scripts."""
+    jobs = unit_test_jobs("release", tests) + [(assertions, "release", tests), (refused_decks, "release"), (goldens, "release", "quick")]
+    return jobs + [(test,) for test in (layers, documents, numbers_of_documents, threads, random_linkages, vibrations, published_cases, assemblies)]
 
 
 def main(tests, slow):
     names = sorted(base_name(path) for path in glob(os.path.join("tests", "scripts", "*.sh")))
     names.remove("functions")  # a part that others read in
-    # The longest first, or one processor waits for the other in the end.
-    names.sort(key=lambda name: name != "figures")
+    jobs = jobs_of_release(tests)
+    unknown = set(SLOW_GROUPS) - set(names) - {job[0].__name__ for job in jobs}
+    if unknown:
+        sys.exit(f"check.py: there is no {', '.join(sorted(unknown))}")
+    jobs = [job for job in jobs if (job[0].__name__ in SLOW_GROUPS) == slow]
     if slow:
-        jobs = [(unit_tests, "release", tests), (assertions, "release", tests), (goldens, "release", OLDEST)]
-        jobs += [(script, "debug", name) for name in names] + [(script, "release", name, []) for name in ("echo_deck", "tables")]
-    else:
-        jobs = [(unit_tests, "debug", tests)] + [(script, "release", name) for name in names]
+        jobs += unit_test_jobs("release", tests, only_slow=True) + unit_test_jobs("debug", tests)
+        # The last two run the decks of inputs/.
+        jobs += [(script, "release", name, True) for name in names if name in SLOW_GROUPS + ["echo_deck", "tables"]]
+        jobs += [(script, "debug", name) for name in names]
         # pFUnit's own comparison of a NaN raises the exception that the debug build traps.
         jobs += [(assertions, "debug", tests)] if tests.startswith("funit") else []
-        jobs += [(layers,), (documents,)]
-        jobs += [(refused_decks, build) for build in BUILDS] + [(goldens, build) for build in BUILDS]
-        jobs += [(threads,), (random_linkages,), (linkages_that_vibrate,), (published_cases,), (assemblies,)]
-    # Two at once: unit tests take one processor, and decks of one speed, too.
-    with multiprocessing.Pool(min(2, os.cpu_count())) as pool:
-        for printed, passed, failed in pool.imap(stage, jobs):
+        jobs += [(refused_decks, "debug"), (goldens, "release", "slow"), (goldens, "release", "all", OLDEST), (goldens, "debug", "all")]
+    else:
+        jobs += [(script, "release", name) for name in names if name not in SLOW_GROUPS]
+    jobs.sort(key=seconds_of, reverse=True)
+    total = Group("all")
+    shared = {}
+    with multiprocessing.Pool() as pool:
+        for printed, groups in pool.imap_unordered(perform, jobs):
             print(printed, end="", flush=True)
-            Group.passed += passed
-            Group.failed += failed
-    if not slow:
-        fuzzed_decks()  # a pool of its own
+            for group in groups:
+                if group.title in shared:
+                    shared[group.title].add(group)
+                else:
+                    shared[group.title] = group
+                if shared[group.title].shares == 1:
+                    print(shared[group.title].line(), flush=True)
+    for group in shared.values():
+        total.add(group)
 
-    total = f"{Group.passed} passed, {Group.failed} failed"
+    line = f"{total.passed} passed, {total.failed} failed"
     with open(COUNT, "w", encoding="utf-8") as count:
-        count.write(total + "\n")
-    print(total, flush=True)
-    return 1 if Group.failed else 0
+        count.write(line + "\n")
+    print(line, flush=True)
+    return 1 if total.failed else 0
 
 
 if __name__ == "__main__":

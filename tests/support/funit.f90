@@ -94,18 +94,29 @@ contains
     flush (output_unit)
   end subroutine run_test
 
-  !> Words on the command line choose tests: those whose "suite name" holds one of them.
+  !> Words on the command line choose tests: those whose "suite name" holds one of them, but none that holds what follows a `-`.
+  !! A blank at the end of a word counts: "test_x " is that suite alone.
   logical function asked_for(full_name)
     character(*), intent(in) :: full_name
 
     character(256) :: word
-    integer :: i
+    integer :: i, length, chosen
 
-    asked_for = command_argument_count() == 0
+    asked_for = .false.
+    chosen = 0
     do i = 1, command_argument_count()
-      call get_command_argument(i, word)
-      asked_for = asked_for .or. index(full_name, trim(word)) > 0
+      call get_command_argument(i, word, length)
+      if (word(1:1) == "-") then
+        if (index(full_name, word(2:length)) > 0) then
+          asked_for = .false.
+          return
+        end if
+      else
+        chosen = chosen + 1
+        asked_for = asked_for .or. index(full_name, word(:length)) > 0
+      end if
     end do
+    asked_for = asked_for .or. chosen == 0
   end function asked_for
 
   !> The count, and exit status 2 when a test has failed.
