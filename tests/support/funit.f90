@@ -3,7 +3,8 @@
 !! The rules are pFUnit's: a tolerance is absolute (default 0: exact) or, in `assertRelativelyEqual`, a fraction of the
 !! expected value; a scalar is compared with every element of an array; NaN satisfies nothing; blanks around a string
 !! do not count. `translate_tests.py` turns `@assertEqual(a, b, tolerance=t)` into
-!! `call assert_relation("assertEqual", values(a), values(b), location, tolerance=t)`.
+!! `call assert_relation("assertEqual", a, b, file, line, tolerance=t)`. No argument has allocatable components: their
+!! deallocation behind every assertion would be a third of what the compiler has to do for a test.
 module funit
   use, intrinsic :: ieee_arithmetic, only: ieee_all, ieee_get_status, ieee_is_finite, ieee_set_halting_mode, ieee_set_status, &
     ieee_status_type
@@ -11,15 +12,9 @@ module funit
   implicit none (type, external)
   private
 
-  public :: anyExceptions, SourceLocation                          ! these names are pFUnit's
-  public :: values, assert_relation, assert_truth, assert_finite   ! called by translated tests
-  public :: run_test, finish                                       ! called by the driver program
-
-  !> Where an assertion stands.
-  type :: SourceLocation
-    character(:), allocatable :: file
-    integer :: line = 0
-  end type SourceLocation
+  public :: anyExceptions                                  ! this name is pFUnit's
+  public :: assert_relation, assert_truth, assert_finite   ! called by translated tests
+  public :: run_test, finish                               ! called by the driver program
 
   !> Both sides of an assertion, whatever their type and rank: the elements in array order, and the shape.
   type :: values_t
@@ -34,6 +29,13 @@ module funit
     module procedure :: values_of_double, values_of_single, values_of_integer, values_of_long, values_of_logical
     module procedure :: values_of_string
   end interface values
+
+  !> The pairs that pFUnit compares: `left` is what it calls expected, `right` what it calls actual.
+  interface assert_relation
+    module procedure :: assert_double_double, assert_integer_double, assert_single_double, assert_single_single
+    module procedure :: assert_integer_single, assert_integer_integer, assert_integer_long, assert_long_long
+    module procedure :: assert_logical_logical, assert_string_string
+  end interface assert_relation
 
   interface assert_truth
     module procedure :: assert_scalar_truth, assert_array_truth
@@ -126,28 +128,31 @@ contains
     if (failed > 0) stop 2, quiet=.true.
   end subroutine finish
 
-  subroutine assert_scalar_truth(name, condition, location, message)
+  subroutine assert_scalar_truth(name, condition, file, line, message)
     character(*), intent(in) :: name !! assertTrue or assertFalse
     logical, intent(in) :: condition
-    type(SourceLocation), intent(in) :: location
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
     character(*), intent(in), optional :: message
 
-    call assert_array_truth(name, [condition], location, message)
+    call assert_array_truth(name, [condition], file, line, message)
   end subroutine assert_scalar_truth
 
-  subroutine assert_array_truth(name, condition, location, message)
+  subroutine assert_array_truth(name, condition, file, line, message)
     character(*), intent(in) :: name !! assertTrue or assertFalse
     logical, intent(in) :: condition(:)
-    type(SourceLocation), intent(in) :: location
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
     character(*), intent(in), optional :: message
 
-    if (any(condition .neqv. (name == "assertTrue"))) call fail(name, "", location, message)
+    if (any(condition .neqv. (name == "assertTrue"))) call fail(name, "", file, line, message)
   end subroutine assert_array_truth
 
-  subroutine assert_finite_double(name, x, location, message)
+  subroutine assert_finite_double(name, x, file, line, message)
     character(*), intent(in) :: name
     real(real64), intent(in) :: x
-    type(SourceLocation), intent(in) :: location
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
     character(*), intent(in), optional :: message
 
     type(ieee_status_type) :: status
@@ -156,27 +161,28 @@ contains
     call disarm(status)
     finite = ieee_is_finite(x)
     call ieee_set_status(status)
-    if (.not. finite) call fail(name, "", location, message)
+    if (.not. finite) call fail(name, "", file, line, message)
   end subroutine assert_finite_double
 
-  subroutine assert_finite_single(name, x, location, message)
+  subroutine assert_finite_single(name, x, file, line, message)
     character(*), intent(in) :: name
     real(real32), intent(in) :: x
-    type(SourceLocation), intent(in) :: location
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
     character(*), intent(in), optional :: message
 
     type(values_t) :: x_
 
     x_ = values(x)
-    call assert_finite(name, x_%reals(1), location, message)
+    call assert_finite(name, x_%reals(1), file, line, message)
   end subroutine assert_finite_single
 
-  !> `left` is what pFUnit calls expected, `right` what it calls actual.
-  subroutine assert_relation(name, left, right, location, tolerance, message)
+  subroutine assert_values(name, left, right, file, line, tolerance, message)
     character(*), intent(in) :: name !! of the relation: assertEqual, assertLessThan, ...
     type(values_t), intent(in) :: left
     type(values_t), intent(in) :: right
-    type(SourceLocation), intent(in) :: location
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
     class(*), intent(in), optional :: tolerance !! a real of either kind
     character(*), intent(in), optional :: message
 
@@ -198,8 +204,128 @@ contains
         reason = "pFUnit does not compare "//left%type//" (expected) with "//right%type//" (actual)"
       end select
     end if
-    if (len(reason) > 0) call fail(name, reason, location, message)
-  end subroutine assert_relation
+    if (len(reason) > 0) call fail(name, reason, file, line, message)
+  end subroutine assert_values
+
+  subroutine assert_double_double(name, left, right, file, line, tolerance, message)
+    character(*), intent(in) :: name
+    real(real64), intent(in) :: left(..)
+    real(real64), intent(in) :: right(..)
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
+    class(*), intent(in), optional :: tolerance
+    character(*), intent(in), optional :: message
+
+    call assert_values(name, values(left), values(right), file, line, tolerance, message)
+  end subroutine assert_double_double
+
+  subroutine assert_integer_double(name, left, right, file, line, tolerance, message)
+    character(*), intent(in) :: name
+    integer, intent(in) :: left(..)
+    real(real64), intent(in) :: right(..)
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
+    class(*), intent(in), optional :: tolerance
+    character(*), intent(in), optional :: message
+
+    call assert_values(name, values(left), values(right), file, line, tolerance, message)
+  end subroutine assert_integer_double
+
+  subroutine assert_single_double(name, left, right, file, line, tolerance, message)
+    character(*), intent(in) :: name
+    real(real32), intent(in) :: left(..)
+    real(real64), intent(in) :: right(..)
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
+    class(*), intent(in), optional :: tolerance
+    character(*), intent(in), optional :: message
+
+    call assert_values(name, values(left), values(right), file, line, tolerance, message)
+  end subroutine assert_single_double
+
+  subroutine assert_single_single(name, left, right, file, line, tolerance, message)
+    character(*), intent(in) :: name
+    real(real32), intent(in) :: left(..)
+    real(real32), intent(in) :: right(..)
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
+    class(*), intent(in), optional :: tolerance
+    character(*), intent(in), optional :: message
+
+    call assert_values(name, values(left), values(right), file, line, tolerance, message)
+  end subroutine assert_single_single
+
+  subroutine assert_integer_single(name, left, right, file, line, tolerance, message)
+    character(*), intent(in) :: name
+    integer, intent(in) :: left(..)
+    real(real32), intent(in) :: right(..)
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
+    class(*), intent(in), optional :: tolerance
+    character(*), intent(in), optional :: message
+
+    call assert_values(name, values(left), values(right), file, line, tolerance, message)
+  end subroutine assert_integer_single
+
+  subroutine assert_integer_integer(name, left, right, file, line, tolerance, message)
+    character(*), intent(in) :: name
+    integer, intent(in) :: left(..)
+    integer, intent(in) :: right(..)
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
+    class(*), intent(in), optional :: tolerance
+    character(*), intent(in), optional :: message
+
+    call assert_values(name, values(left), values(right), file, line, tolerance, message)
+  end subroutine assert_integer_integer
+
+  subroutine assert_integer_long(name, left, right, file, line, tolerance, message)
+    character(*), intent(in) :: name
+    integer, intent(in) :: left(..)
+    integer(int64), intent(in) :: right(..)
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
+    class(*), intent(in), optional :: tolerance
+    character(*), intent(in), optional :: message
+
+    call assert_values(name, values(left), values(right), file, line, tolerance, message)
+  end subroutine assert_integer_long
+
+  subroutine assert_long_long(name, left, right, file, line, tolerance, message)
+    character(*), intent(in) :: name
+    integer(int64), intent(in) :: left(..)
+    integer(int64), intent(in) :: right(..)
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
+    class(*), intent(in), optional :: tolerance
+    character(*), intent(in), optional :: message
+
+    call assert_values(name, values(left), values(right), file, line, tolerance, message)
+  end subroutine assert_long_long
+
+  subroutine assert_logical_logical(name, left, right, file, line, tolerance, message)
+    character(*), intent(in) :: name
+    logical, intent(in) :: left(..)
+    logical, intent(in) :: right(..)
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
+    class(*), intent(in), optional :: tolerance
+    character(*), intent(in), optional :: message
+
+    call assert_values(name, values(left), values(right), file, line, tolerance, message)
+  end subroutine assert_logical_logical
+
+  subroutine assert_string_string(name, left, right, file, line, tolerance, message)
+    character(*), intent(in) :: name
+    character(*), intent(in) :: left
+    character(*), intent(in) :: right
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
+    class(*), intent(in), optional :: tolerance
+    character(*), intent(in), optional :: message
+
+    call assert_values(name, values(left), values(right), file, line, tolerance, message)
+  end subroutine assert_string_string
 
   !> Why the relation does not hold, at the first element where it does not; empty when it holds.
   function reason_of_reals(name, left, right, tolerance) result(reason)
@@ -317,16 +443,17 @@ contains
   end function sides
 
   !> Keep the first failure: it is the one that explains the others.
-  subroutine fail(name, reason, location, message)
+  subroutine fail(name, reason, file, line, message)
     character(*), intent(in) :: name
     character(*), intent(in) :: reason
-    type(SourceLocation), intent(in) :: location
+    character(*), intent(in) :: file
+    integer, intent(in) :: line
     character(*), intent(in), optional :: message
 
     character(:), allocatable :: text
 
     if (anyExceptions()) return
-    text = location%file//":"//to_string(location%line)//": "//name
+    text = file//":"//to_string(line)//": "//name
     if (len(reason) > 0) text = text//": "//reason
     if (present(message)) text = text//" ("//trim(message)//")"
     failure_of_this_test = text

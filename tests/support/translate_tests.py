@@ -51,7 +51,6 @@ def assertion(name, text, location):
     keyword = name.lower()
     if keyword in RELATIONS:
         name, procedure, count = RELATIONS[keyword], "assert_relation", 2
-        operands = [f"values({operand})" for operand in operands]
     elif keyword in TRUTHS:
         name, procedure, count = TRUTHS[keyword], "assert_truth", 1
     elif keyword == "assertisfinite":
@@ -85,7 +84,7 @@ def translate(path):
                     arguments = re.match(r"\((.*)\)\s*$", word[2])
                     if not arguments:
                         raise Refused("an assertion stands on one line and ends with its bracket")
-                    line = assertion(word[1], arguments[1], f'SourceLocation("{path}", {number})')
+                    line = assertion(word[1], arguments[1], f'"{path}", {number}')
                 elif begun and expected:
                     if expected == "test":
                         tests.append(begun[1])
