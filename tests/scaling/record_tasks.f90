@@ -12,6 +12,7 @@ program record_tasks
   use tables, only: column_t, real_column
   use task_journal, only: journal_t
   use tasks, only: run_tasks
+  use text, only: string_t
   use variant_tasks, only: begin_variant_job, variant_job_t
   use variants, only: parameter_names, variant_count
   implicit none (type, external)
@@ -22,6 +23,7 @@ program record_tasks
   type(variant_job_t), target :: job
   type(recorded_job_t) :: recorded
   type(journal_t) :: no_journal
+  type(string_t) :: no_inputs(0) !! nothing to be kept from being written over: the folder is scratch
   type(column_t), allocatable :: parameters(:)
   type(error_t), allocatable :: error
   integer :: unit, count, i
@@ -39,7 +41,7 @@ program record_tasks
   do i = 1, size(parameters)
     parameters(i) = real_column(deck%cards%variations(i)%name%text, "-")
   end do
-  call open_outputs(trim(folder), deck%model, parameters, .false., outputs, error)
+  call open_outputs(trim(folder), deck%model, no_inputs, parameters, .false., outputs, error)
   if (allocated(error)) then
     write (error_unit, "(a)") rendered(error)
     stop 2, quiet=.true.
