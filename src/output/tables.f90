@@ -14,7 +14,7 @@ module tables
   implicit none (type, external)
   private
 
-  public :: table_t, open_table, begin_variant, finish_table, close_table
+  public :: table_file_t, open_table, begin_variant, finish_table, close_table
   public :: column_t, real_column, integer_column, name_column, append_column
   public :: write_header, write_notes, write_rows
   public :: real_cells, decimal_cell, integer_cell, name_cell, has_unit
@@ -25,7 +25,7 @@ module tables
     integer :: width = 0                  !! characters, with the blank before
   end type column_t
 
-  type :: table_t
+  type :: table_file_t
     character(len=:), allocatable :: name     !! of its files, without `.dat` and `.csv`
     logical :: has_plain = .true.             !! at least one of the two
     logical :: has_csv = .false.
@@ -40,7 +40,7 @@ module tables
                                                            !! the deck has one variant only
     real(wp), allocatable, private :: parameter_values(:)  !! (parameters) of the current variant
     character(len=:), allocatable, private :: first_cells  !! the same as text: start of every row
-  end type table_t
+  end type table_file_t
 
   integer, parameter :: integer_width = 9
   character(len=*), parameter :: no_unit = "-"
@@ -54,7 +54,7 @@ contains
     character(len=*), intent(in) :: folder           !! existing
     character(len=*), intent(in) :: name             !! of the files, without extension
     logical, intent(in) :: has_csv                   !! whether to write CSV as well
-    type(table_t), intent(out) :: table              !! without header
+    type(table_file_t), intent(out) :: table         !! without header
     type(error_t), allocatable, intent(out) :: error !! allocated if a file cannot be opened
     logical, intent(in), optional :: csv_only        !! with `has_csv`: no plain table
 
@@ -71,7 +71,7 @@ contains
 
   !> Begins the rows of a variant, with its parameters in their first columns.
   subroutine begin_variant(table, parameters, values)
-    type(table_t), intent(inout) :: table       !! open
+    type(table_file_t), intent(inout) :: table  !! open
     type(column_t), intent(in) :: parameters(:) !! (parameters) columns of what varies
     real(wp), intent(in) :: values(:)           !! (parameters) in the units of their columns
 
@@ -82,7 +82,7 @@ contains
 
   !> Writes the rest and closes the files. Errors: not everything was taken.
   subroutine finish_table(table, folder, error)
-    type(table_t), intent(inout) :: table            !! open before, closed after
+    type(table_file_t), intent(inout) :: table       !! open before, closed after
     character(len=*), intent(in) :: folder           !! where its files will be, for a message
     type(error_t), allocatable, intent(out) :: error !! allocated if a file is incomplete
 
@@ -96,7 +96,7 @@ contains
 
   !> Closes the files as they are.
   subroutine close_table(table)
-    type(table_t), intent(inout) :: table !! open or finished
+    type(table_file_t), intent(inout) :: table !! open or finished
 
     call close_output(table%plain)
     call close_output(table%csv)
@@ -171,7 +171,7 @@ contains
   !> Separates a variant from the one before: two empty lines, unless its rows are no block, and
   !! those of its notes that the header does not have.
   subroutine write_notes(table, notes)
-    type(table_t), intent(inout) :: table  !! with its header
+    type(table_file_t), intent(inout) :: table  !! with its header
     type(string_t), intent(in) :: notes(:) !! lines of text, of the variant
 
     integer :: i
@@ -186,7 +186,7 @@ contains
   !> Writes the `#` lines: title, notes, column names, units. CSV gets one line of column names with
   !! their units.
   subroutine write_header(table, title, notes, columns)
-    type(table_t), intent(inout) :: table    !! without header
+    type(table_file_t), intent(inout) :: table    !! without header
     character(len=*), intent(in) :: title    !! of the deck; may be empty
     type(string_t), intent(in) :: notes(:)   !! lines of text, of the first variant
     type(column_t), intent(in) :: columns(:) !! (columns) without those of what varies
@@ -226,7 +226,7 @@ contains
 
   !> Writes rows, gaps and failures in their order.
   subroutine write_rows(table, rows)
-    type(table_t), intent(inout) :: table !! with its header
+    type(table_file_t), intent(inout) :: table !! with its header
     type(rows_t), intent(in) :: rows      !! to write
 
     type(row_item_t) :: item
@@ -250,14 +250,14 @@ contains
 
   !> Appends text to the plain table, if there is one.
   subroutine append_plain(table, text)
-    type(table_t), intent(inout) :: table
+    type(table_file_t), intent(inout) :: table
     character(len=*), intent(in) :: text
 
     if (table%has_plain) call append_output(table%plain, text)
   end subroutine append_plain
 
   subroutine write_row(table, cells)
-    type(table_t), intent(inout) :: table
+    type(table_file_t), intent(inout) :: table
     character(len=*), intent(in) :: cells
 
     if (table%gap_due) call append_plain(table, line_feed)
@@ -273,7 +273,7 @@ contains
   !> Writes empty lines: one where a curve breaks, two between blocks. CSV needs none, since its
   !! columns show both.
   subroutine write_gap(table, lines)
-    type(table_t), intent(inout) :: table
+    type(table_file_t), intent(inout) :: table
     integer, intent(in) :: lines
 
     table%gap_due = .false.
@@ -285,7 +285,7 @@ contains
   !!
   !! Successive failed rows share one empty line: two would end a block.
   subroutine write_failure(table, place, reason)
-    type(table_t), intent(inout) :: table
+    type(table_file_t), intent(inout) :: table
     real(wp), intent(in) :: place(:) !! (first columns) known values after those of what varies:
                                      !! speed, crank angle
     character(len=*), intent(in) :: reason

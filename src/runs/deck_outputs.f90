@@ -13,7 +13,7 @@ module deck_outputs
   use report_table, only: plan_table, reports, table_in_units, table_notes, table_plan_t
   use table_columns, only: header_columns
   use table_rows, only: add_failed_row, rows_t
-  use tables, only: begin_variant, close_table, column_t, finish_table, open_table, table_t, &
+  use tables, only: begin_variant, close_table, column_t, finish_table, open_table, table_file_t, &
     write_header, write_notes, write_rows
   use task_journal, only: begun, journal_name
   use text, only: append_string, string_t, word_list
@@ -33,7 +33,7 @@ module deck_outputs
     logical, private :: plain = .true.                    !! tables as plain text
     type(table_kind_t), allocatable :: kinds(:)           !! (tables) names and columns, from the
                                                           !! table of reports
-    type(table_t), allocatable :: tables(:)               !! in the order of `kinds`
+    type(table_file_t), allocatable :: tables(:)          !! in the order of `kinds`
     type(column_t), allocatable, private :: parameters(:) !! columns of the VARY parameters
     logical :: have_heads = .false.                       !! the tables; the first variant that is
                                                           !! computed brings them
@@ -168,7 +168,7 @@ contains
   !! head and the variants that waited for it.
   subroutine begin_rows(outputs, table, title, notes, columns, varied)
     type(outputs_t), intent(in) :: outputs
-    type(table_t), intent(inout) :: table !! one of these outputs
+    type(table_file_t), intent(inout) :: table !! one of these outputs
     character(len=*), intent(in) :: title
     type(string_t), intent(in) :: notes(:)
     type(column_t), allocatable, intent(in) :: columns(:) !! allocated for the head
@@ -231,7 +231,7 @@ contains
   end subroutine forget_waiting
 
   subroutine write_items(table, plan, variant, first, last, threads)
-    type(table_t), intent(inout) :: table
+    type(table_file_t), intent(inout) :: table
     type(table_plan_t), intent(in) :: plan
     type(variant_results_t), intent(in) :: variant
     integer, intent(in) :: first, last, threads

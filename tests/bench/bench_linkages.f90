@@ -12,7 +12,7 @@ module bench_linkages
   use positions, only: by_crank_angle
   use table_rows, only: add_row, rows_t
   use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, &
-    real_cells, real_column, table_t, write_header, write_rows
+    real_cells, real_column, table_file_t, write_header, write_rows
   use task_journal, only: journal_t
   use text, only: string_t, to_string
   use variant_runs, only: begin_variant_run, compute_variant, variant_run_t
@@ -235,7 +235,7 @@ contains
     type(linkage_case_t), intent(in) :: linkages(:)
     type(error_t), allocatable, intent(out) :: error
 
-    type(table_t) :: file
+    type(table_file_t) :: file
     type(rows_t) :: rows
     type(column_t) :: columns(17)
     type(string_t) :: names(size(linkages))

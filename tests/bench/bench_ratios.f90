@@ -4,7 +4,7 @@ module bench_ratios
   use errors, only: error_t
   use kinds, only: wp
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: column_t, finish_table, name_cell, name_column, open_table, real_cells, real_column, table_t, &
+  use tables, only: column_t, finish_table, name_cell, name_column, open_table, real_cells, real_column, table_file_t, &
     write_header, write_rows
   use text, only: string_t, to_string
   implicit none (type, external)
@@ -24,7 +24,7 @@ contains
     type(plan_t), intent(in) :: plan
     type(error_t), allocatable, intent(out) :: error
 
-    type(table_t) :: file
+    type(table_file_t) :: file
     type(rows_t) :: rows
     type(column_t) :: columns(5)
     type(string_t), allocatable :: solvers(:)

@@ -16,7 +16,7 @@ module bench_response
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_motion_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, &
-    real_cells, real_column, table_t, write_header, write_rows
+    real_cells, real_column, table_file_t, write_header, write_rows
   use text, only: string_t, to_string, word_list
   use turn_grids, only: turn_grid_t
   use whole_turn, only: collocate, read_motion, turn_matrices_of, turn_matrices_t, write_matrices, write_shapes
@@ -374,7 +374,7 @@ contains
     type(response_bench_t), intent(in) :: bench
     type(error_t), allocatable, intent(out) :: error
 
-    type(table_t) :: file
+    type(table_file_t) :: file
     type(rows_t) :: rows
     type(column_t) :: columns(16)
     type(string_t), allocatable :: methods(:)
@@ -435,7 +435,7 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(part_t), allocatable :: parts(:)
-    type(table_t) :: file
+    type(table_file_t) :: file
     type(rows_t) :: rows
     type(column_t) :: columns(6)
     type(string_t), allocatable :: names(:)

@@ -6,7 +6,7 @@ module bench_tables
   use kinds, only: wp
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, &
-    real_cells, real_column, table_t, write_header, write_rows
+    real_cells, real_column, table_file_t, write_header, write_rows
   use text, only: string_t, to_string
   implicit none (type, external)
   private
@@ -26,7 +26,7 @@ contains
     type(plan_t), intent(in) :: plan
     type(error_t), allocatable, intent(out) :: error
 
-    type(table_t) :: file
+    type(table_file_t) :: file
     type(rows_t) :: rows
     type(string_t), allocatable :: names(:)
     type(column_t), allocatable :: columns(:)
@@ -200,7 +200,7 @@ contains
     real(wp), intent(in) :: times(:, :) !! (jobs, repetitions) [s]
     type(error_t), allocatable, intent(out) :: error
 
-    type(table_t) :: file
+    type(table_file_t) :: file
     type(rows_t) :: rows
     type(column_t) :: columns(4)
     integer :: i

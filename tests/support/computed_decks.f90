@@ -13,7 +13,7 @@ module computed_decks
   use report_table, only: plan_table, reports, table_in_units, table_notes, table_plan_t
   use table_columns, only: header_columns
   use table_rows, only: rows_t
-  use tables, only: column_t, finish_table, open_table, table_t, write_header, write_rows
+  use tables, only: column_t, finish_table, open_table, table_file_t, write_header, write_rows
   use task_journal, only: journal_t
   use text, only: string_t
   use variant_results, only: variant_results_t
@@ -143,7 +143,7 @@ contains
     type(rows_t) :: rows
     type(string_t), allocatable :: notes(:)
     type(column_t), allocatable :: columns(:)
-    type(table_t) :: table
+    type(table_file_t) :: table
     type(error_t), allocatable :: error
     integer :: unit, length
 

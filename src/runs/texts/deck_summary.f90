@@ -11,7 +11,7 @@ module deck_summary
   use run_findings, only: at_forces, at_instant, at_position, failure_t, findings_t, in_motion, &
     in_response, in_campbell, in_intervals, in_stability, in_transient, of_variant, untold_failures
   use run_totals, only: run_totals_t
-  use tables, only: column_t, has_unit, table_t
+  use tables, only: column_t, has_unit, table_file_t
   use text, only: character_count, plural, string_t
   use tokens, only: token_t
   use warnings, only: counted_text, grade_doubt, grade_meaningless, warning_t
@@ -33,7 +33,7 @@ contains
     type(model_t), intent(in) :: model             !! of the first variant
     type(run_totals_t), intent(in) :: totals       !! of all variants
     type(string_t), intent(in) :: parameters(:)    !! names of the VARY parameters
-    type(table_t), intent(in) :: tables(:)         !! with all rows written
+    type(table_file_t), intent(in) :: tables(:)    !! with all rows written
     character(len=:), allocatable :: text
 
     type(json_list_t) :: object, list
@@ -59,7 +59,7 @@ contains
   pure function count_object(model, totals, tables, findings) result(value)
     type(model_t), intent(in) :: model
     type(run_totals_t), intent(in) :: totals
-    type(table_t), intent(in) :: tables(:)
+    type(table_file_t), intent(in) :: tables(:)
     type(findings_t), intent(in) :: findings
     character(len=:), allocatable :: value
 
@@ -77,7 +77,7 @@ contains
 
   !> Files, numbers of rows, and columns of a table.
   pure function table_object(table) result(value)
-    type(table_t), intent(in) :: table
+    type(table_file_t), intent(in) :: table
     character(len=:), allocatable :: value
 
     type(json_list_t) :: object, list
