@@ -15,7 +15,7 @@ module manual_page
 contains
 
   !> The text of `--man`.
-  pure function manual_page_text() result(text)
+  function manual_page_text() result(text)
     character(len=:), allocatable :: text
 
     type(text_buffer_t) :: page

@@ -4,13 +4,18 @@ module balance_report
   use balance_study, only: has_balanced, obstacle_link, obstacle_none, obstacle_pin, obstacle_ram
   use counterweight_notes, only: append_counterweight, append_partial_notes, balanced_by_cards
   use drive_motions, only: drive_rates
-  use harmonics_study, only: has_settled, is_moment, quantity_count, quantity_names
-  use kinds, only: wp
+  use harmonics_study, only: has_settled, highest_harmonic, is_moment, quantity_count, quantity_names
   use joint_study, only: joints_result_t
+  use joints_report, only: drives_notes
+  use kinds, only: wp
   use load_notes, only: acceleration_note
+  use models, only: drives_length, model_t
   use position_rows, only: add_position_row
   use reactions_study, only: reaction_values, reactions_at_speed, reactions_result_t, &
     shaking_values, torque_value
+  use report_kinds, only: four_bars, other_linkages, report_kind_t
+  use report_types, only: add_table, fit_columns, report_record_t, state_table_t, table_plan_t, &
+    whole_table_t
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
@@ -21,12 +26,71 @@ module balance_report
   implicit none (type, external)
   private
 
-  public :: append_balanced_notes, append_harmonics_notes, append_hung_notes, balance_notes, &
-    add_balance, add_hung_balance, harmonics_notes, harmonics_words, add_harmonics
+  public :: describe_balance, describe_hung_balance
 
   character(len=*), parameter :: linkage_names(2) = [character(len=8) :: "given", "balanced"]
 
+  !> `balance.dat` of a four-bar.
+  type, extends(state_table_t) :: balance_table_t
+  contains
+    procedure, nopass :: find_notes => balance_notes
+    procedure, nopass :: add_position => add_balance
+  end type balance_table_t
+
+  !> `harmonics.dat` of a four-bar.
+  type, extends(whole_table_t) :: harmonics_table_t
+  contains
+    procedure, nopass :: find_notes => harmonics_notes
+    procedure, nopass :: add_all => add_harmonics
+  end type harmonics_table_t
+
+  !> `balance.dat` of other linkages.
+  type, extends(state_table_t) :: hung_balance_table_t
+  contains
+    procedure, nopass :: find_notes => hung_balance_notes
+    procedure, nopass :: plan => plan_hung_balance
+    procedure, nopass :: fit => fit_hung_balance
+    procedure, nopass :: add_position => add_hung_balance
+  end type hung_balance_table_t
+
+  !> `harmonics.dat` of other linkages.
+  type, extends(whole_table_t) :: hung_harmonics_table_t
+  contains
+    procedure, nopass :: find_notes => hung_harmonics_notes
+    procedure, nopass :: add_all => add_harmonics
+  end type hung_harmonics_table_t
+
 contains
+
+  !> REPORT balance.
+  subroutine describe_balance(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="balance", help="shaking force, counterweights, harmonics", &
+      studies="reactions balance harmonics", positions=.true., masses=.true., numbers=98, &
+      linkages=four_bars)
+    call add_table(report, balance_table_t(), "balance", "speed:speed crank:deg xG,yG:length "// &
+      "shaking_x,shaking_y:force shaking_moment,torque:moment balanced_x,balanced_y:force "// &
+      "balanced_moment,balanced_torque:moment")
+    call add_table(report, harmonics_table_t(), "harmonics", "speed:speed linkage,"// &
+      "quantity:name largest,rms,mean:- h*:- phase*:deg", words=harmonics_words(), &
+      numbered=highest_harmonic)
+  end subroutine describe_balance
+
+  !> REPORT balance of linkages that are no four-bars.
+  subroutine describe_hung_balance(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="balance", help="of other linkages: shaking force, "// &
+      "counterweights", studies="joints balance harmonics", positions=.true., masses=.true., &
+      linkages=other_linkages)
+    call add_table(report, hung_balance_table_t(), "balance", "speed:speed crank:deg xG,"// &
+      "yG:length shaking_x,shaking_y:force shaking_moment,torque:moment balanced_x?,"// &
+      "balanced_y?:force balanced_moment?,balanced_torque?:moment")
+    call add_table(report, hung_harmonics_table_t(), "harmonics", "speed:speed linkage,"// &
+      "quantity:name largest,rms,mean:- h*:- phase*:deg", words=harmonics_words(), &
+      numbered=highest_harmonic)
+  end subroutine describe_hung_balance
 
   !> Meaning of the columns, total mass, counterweights.
   pure subroutine balance_notes(variant, notes)
@@ -331,5 +395,43 @@ contains
       end do
     end do
   end subroutine add_harmonics
+
+  !> There are columns with counterweights, if there are any.
+  subroutine plan_hung_balance(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%has_optional = has_balanced(variant%found%balance)
+  end subroutine plan_hung_balance
+
+  !> What turns a crank is a force on a slider.
+  pure subroutine fit_hung_balance(model, columns)
+    type(model_t), intent(in) :: model         !! with its drives
+    character(len=*), intent(inout) :: columns !! of the record
+
+    if (drives_length(model)) columns = "speed:speed crank:deg xG,yG:length "// &
+      "shaking_x,shaking_y:force shaking_moment:moment torque:force "// &
+      "balanced_x?,balanced_y?:force balanced_moment?:moment balanced_torque?:force"
+    call fit_columns(model, columns)
+  end subroutine fit_hung_balance
+
+  !> Of linkages that are no four-bars: drives and loads, what is balanced.
+  subroutine hung_balance_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its balance computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    call drives_notes(variant, notes)
+    call append_hung_notes(variant, notes)
+  end subroutine hung_balance_notes
+
+  !> Of linkages that are no four-bars: drives and loads, what is balanced, the harmonics.
+  subroutine hung_harmonics_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its harmonics computed
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    call drives_notes(variant, notes)
+    call append_balanced_notes(variant, notes)
+    call append_harmonics_notes(variant, notes)
+  end subroutine hung_harmonics_notes
 
 end module balance_report

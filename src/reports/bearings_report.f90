@@ -3,9 +3,11 @@
 module bearings_report
   use drive_motions, only: drive_rates, place_columns, table_place
   use joint_study, only: bearings_at_speed
-  use joints_report, only: add_open_row, owner_cell
+  use joints_report, only: add_open_row, owner_cell, plan_joints
   use kinds, only: wp
   use load_notes, only: acceleration_note, append_load_notes
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, state_table_t
   use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: name_cell
@@ -14,9 +16,28 @@ module bearings_report
   implicit none (type, external)
   private
 
-  public :: bearings_notes, add_bearings
+  public :: describe_bearings
+
+  !> `bearings.dat`.
+  type, extends(state_table_t) :: bearings_table_t
+  contains
+    procedure, nopass :: find_notes => bearings_notes
+    procedure, nopass :: plan => plan_joints
+    procedure, nopass :: add_position => add_bearings
+  end type bearings_table_t
 
 contains
+
+  !> REPORT bearings.
+  subroutine describe_bearings(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="bearings", help="forces in the joints, in the axes of "// &
+      "the links too", pattern="REPORT bearings [columns=]", studies="joints", positions=.true., &
+      masses=.true., numbers=82)
+    call add_table(report, bearings_table_t(), "bearings", "speed:speed crank:deg pin,"// &
+      "link:name fx,fy,axial,transverse,magnitude:force angle:deg")
+  end subroutine describe_bearings
 
   !> On what the forces act, both axes, the angle, loads.
   pure subroutine bearings_notes(variant, notes)

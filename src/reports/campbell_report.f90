@@ -4,6 +4,8 @@ module campbell_report
   use constants, only: two_pi
   use models, only: accuracy_of_study
   use number_text, only: number_width
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, speed_table_t, table_plan_t, whole_table_t
   use response_notes, only: damping_note, without_note
   use stability_report, only: is_short, lost_note, stability_words, verdict_word
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
@@ -15,9 +17,37 @@ module campbell_report
   implicit none (type, external)
   private
 
-  public :: campbell_notes, campbell_words, critical_notes, add_campbell, add_critical
+  public :: describe_campbell
+
+  !> `campbell.dat`.
+  type, extends(speed_table_t) :: campbell_table_t
+  contains
+    procedure, nopass :: find_notes => campbell_notes
+    procedure, nopass :: add_speed => add_campbell
+  end type campbell_table_t
+
+  !> `critical.dat`.
+  type, extends(whole_table_t) :: critical_table_t
+  contains
+    procedure, nopass :: find_notes => critical_notes
+    procedure, nopass :: plan => plan_critical
+    procedure, nopass :: add_all => add_critical
+  end type critical_table_t
 
 contains
+
+  !> REPORT campbell.
+  subroutine describe_campbell(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="campbell", help="frequencies against the speed, and "// &
+      "critical speeds", pattern="REPORT campbell [accuracy=]", default="accuracy=1e-6", &
+      studies="campbell", response=.true.)
+    call add_table(report, campbell_table_t(), "campbell", "speed:speed mode:# least,mean,"// &
+      "greatest:Hz band_error:- floquet:Hz growth,error:- verdict:name", words=stability_words())
+    call add_table(report, critical_table_t(), "critical", "speed:rate speed_error:- line,"// &
+      "mode:# frequency:Hz excitation:length amplitude?:length growth,error:-")
+  end subroutine describe_campbell
 
   !> Meaning of the columns of frequencies, damping, accuracy.
   pure subroutine campbell_notes(variant, notes)
@@ -72,13 +102,6 @@ contains
         "campbell")))
     end associate
   end subroutine append_common_notes
-
-  !> The column `verdict`, with a word as long as the longest.
-  pure function campbell_words() result(list)
-    type(name_list_t) :: list
-
-    list = stability_words()
-  end function campbell_words
 
   !> Appends the rows of a speed, one per mode, or its failure.
   subroutine add_campbell(variant, layout, speed, rows)
@@ -138,5 +161,13 @@ contains
       end do
     end associate
   end subroutine add_critical
+
+  !> Amplitudes, if there is damping.
+  subroutine plan_critical(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%has_optional = variant%found%campbell%damped
+  end subroutine plan_critical
 
 end module campbell_report

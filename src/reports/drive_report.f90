@@ -1,6 +1,8 @@
 !> `drive.dat`: the driving torque of the elastic linkage with its parts, and the power.
 module drive_report
   use position_rows, only: add_position_row
+  use report_kinds, only: four_bars, report_kind_t
+  use report_types, only: add_table, report_record_t, response_table_t
   use response_notes, only: append_response_notes
   use table_columns, only: table_layout_t, table_unit
   use table_rows, only: rows_t
@@ -10,9 +12,38 @@ module drive_report
   implicit none (type, external)
   private
 
-  public :: drive_notes, add_drive
+  public :: describe_drive, describe_torque
+
+  !> `drive.dat` of a four-bar and `torque.dat`.
+  type, extends(response_table_t) :: drive_table_t
+  contains
+    procedure, nopass :: find_notes => drive_notes
+    procedure, nopass :: add_position => add_drive
+  end type drive_table_t
 
 contains
+
+  !> REPORT drive.
+  subroutine describe_drive(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="drive", help="the driving torque with its parts, and "// &
+      "the power", pattern="REPORT drive [accuracy=]", default="accuracy=1e-6", &
+      studies="response", positions=.true., response=.true., linkages=four_bars)
+    call add_table(report, drive_table_t(), "drive", "speed:speed crank:deg rigid,linear,"// &
+      "quadratic,total:moment power:power error:-")
+  end subroutine describe_drive
+
+  !> REPORT torque.
+  subroutine describe_torque(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="torque", help="the torque of the elastic linkage, with "// &
+      "its parts", pattern="REPORT torque [accuracy=] [columns=]", default="accuracy=1e-6", &
+      studies="response", positions=.true., response=.true.)
+    call add_table(report, drive_table_t(), "torque", "speed:speed crank:deg rigid,linear,"// &
+      "quadratic,total:moment power:power error:-")
+  end subroutine describe_torque
 
   !> Meaning of the columns, mean torques, and what all tables of the response say.
   pure subroutine drive_notes(variant, notes)

@@ -3,6 +3,9 @@
 module equilibrium_report
   use kinds, only: wp
   use load_notes, only: append_load_notes, potential_note
+  use models, only: drives_length, model_t
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, fit_columns, report_record_t, whole_table_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
@@ -11,20 +14,48 @@ module equilibrium_report
   implicit none (type, external)
   private
 
-  public :: equilibrium_notes, potential_notes, equilibrium_words, add_equilibria, add_potential
+  public :: describe_equilibrium
 
   !> In the order of the is_… numbers.
   character(len=*), parameter :: verdicts(3) = [character(len=11) :: "stable", "unstable", &
     "indifferent"]
 
+  !> `equilibrium.dat`.
+  type, extends(whole_table_t) :: equilibrium_table_t
+  contains
+    procedure, nopass :: find_notes => equilibrium_notes
+    procedure, nopass :: add_all => add_equilibria
+  end type equilibrium_table_t
+
+  !> `potential.dat`.
+  type, extends(whole_table_t) :: potential_table_t
+  contains
+    procedure, nopass :: find_notes => potential_notes
+    procedure, nopass :: fit => fit_potential
+    procedure, nopass :: add_all => add_potential
+  end type potential_table_t
+
 contains
+
+  !> REPORT equilibrium.
+  subroutine describe_equilibrium(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="equilibrium", help="where the linkage rests without "// &
+      "its drive", studies="equilibrium", masses=.true.)
+    call add_table(report, equilibrium_table_t(), "equilibrium", "crank:deg verdict:name "// &
+      "potential:energy stiffness:turning_stiffness frequency:Hz error:-", &
+      words=equilibrium_words())
+    call add_table(report, potential_table_t(), "potential", "crank:deg torque:moment "// &
+      "potential:energy")
+  end subroutine describe_equilibrium
 
   !> The words in the column `verdict`.
   pure function equilibrium_words() result(list)
-    type(name_list_t) :: list
+    type(name_list_t) :: list(1)
 
-    list%column = "verdict"
-    list%names = word_list("stable unstable indifferent")
+    list(1)%column = "verdict"
+    list(1)%names = word_list("stable unstable indifferent")
   end function equilibrium_words
 
   !> What the columns are, and where rests were looked for.
@@ -104,5 +135,14 @@ contains
       end do
     end associate
   end subroutine add_equilibria
+
+  !> What turns a crank is a force on a slider.
+  pure subroutine fit_potential(model, columns)
+    type(model_t), intent(in) :: model         !! with its drives
+    character(len=*), intent(inout) :: columns !! of the record
+
+    if (drives_length(model)) columns = "crank:deg torque:force potential:energy"
+    call fit_columns(model, columns)
+  end subroutine fit_potential
 
 end module equilibrium_report

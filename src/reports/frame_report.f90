@@ -7,6 +7,8 @@ module frame_report
   use load_notes, only: acceleration_note, append_load_notes
   use models, only: report_number
   use position_rows, only: add_position_row
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, state_table_t
   use table_columns, only: table_layout_t, table_unit
   use table_rows, only: rows_t
   use text, only: append_string, same_word, string_t, to_string
@@ -15,9 +17,27 @@ module frame_report
   implicit none (type, external)
   private
 
-  public :: frame_notes, add_frame
+  public :: describe_frame
+
+  !> `frame.dat`.
+  type, extends(state_table_t) :: frame_table_t
+  contains
+    procedure, nopass :: find_notes => frame_notes
+    procedure, nopass :: add_position => add_frame
+  end type frame_table_t
 
 contains
+
+  !> REPORT frame.
+  subroutine describe_frame(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="frame", help="shaking force, and force and moment on "// &
+      "the frame", pattern="REPORT frame [about=x,y|pin] [columns=]", studies="joints", &
+      positions=.true., masses=.true., numbers=82)
+    call add_table(report, frame_table_t(), "frame", "speed:speed crank:deg shaking_x,"// &
+      "shaking_y:force shaking_moment:moment frame_x,frame_y:force frame_moment:moment")
+  end subroutine describe_frame
 
   !> Whose definitions these are, about which point moments are, loads.
   pure subroutine frame_notes(variant, notes)

@@ -11,6 +11,9 @@ module frequency_report
   use models, only: effects_static, inertia_distributed, inertia_lumped, is_damped, is_loaded, &
     is_moving, is_sprung, model_t, needs_loads, report_number, speed_in_table
   use report_cards, only: report_t
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, fit_columns, plan_links, position_table_t, report_record_t, &
+    table_plan_t
   use table_columns, only: cells, column_width, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: integer_cell, name_cell
@@ -21,10 +24,51 @@ module frequency_report
   implicit none (type, external)
   private
 
-  public :: frequency_notes, add_frequencies, shape_notes, add_shapes, drawn_rows, effects_notes, &
-    is_drawn, shown_speed
+  public :: describe_frequencies, describe_shapes, drawn_rows, effects_notes, is_drawn, &
+    shown_speed
+
+  !> `frequencies.dat`.
+  type, extends(position_table_t) :: frequency_table_t
+  contains
+    procedure, nopass :: find_notes => frequency_notes
+    procedure, nopass :: plan => plan_frequencies
+    procedure, nopass :: fit => fit_frequencies
+    procedure, nopass :: count_speeds => speeds_of_sweep
+    procedure, nopass :: add_position => add_frequencies
+  end type frequency_table_t
+
+  !> `shapes.dat`.
+  type, extends(position_table_t) :: shape_table_t
+  contains
+    procedure, nopass :: find_notes => shape_notes
+    procedure, nopass :: plan => plan_shapes
+    procedure, nopass :: count_speeds => speeds_of_sweep
+    procedure, nopass :: add_position => add_shapes
+  end type shape_table_t
 
 contains
+
+  !> REPORT frequencies.
+  subroutine describe_frequencies(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="frequencies", help="natural frequencies with estimated "// &
+      "errors", pattern="REPORT frequencies [columns=]", studies="frequencies", positions=.true., &
+      beams=.true., frequencies=.true., reserved=.true.)
+    call add_table(report, frequency_table_t(), "frequencies", "speed:speed crank:deg f*:Hz "// &
+      "error*:-")
+  end subroutine describe_frequencies
+
+  !> REPORT shapes.
+  subroutine describe_shapes(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="shapes", help="mode shapes along the links", &
+      pattern="REPORT shapes [crank=a,b,...] [speed=...] [points=]", default="points=21", &
+      studies="frequencies", positions=.true., beams=.true., frequencies=.true., reserved=.true.)
+    call add_table(report, shape_table_t(), "shapes", "speed:speed crank:deg mode:# "// &
+      "frequency:Hz link:name s,x,y:length ux,uy:mass^-1/2 rotation:rotation")
+  end subroutine describe_shapes
 
   !> Effects in the equations, motions that nothing holds, and the meaning of the error columns.
   pure subroutine frequency_notes(variant, notes)
@@ -297,5 +341,40 @@ contains
       end do
     end associate
   end subroutine add_mode
+
+  !> A column for every mode.
+  subroutine plan_frequencies(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%count = variant%model%modes
+  end subroutine plan_frequencies
+
+  !> An item for every position and speed that is drawn.
+  subroutine plan_shapes(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    call plan_links(variant, plan)
+    plan%drawn = drawn_rows(variant)
+    plan%items = size(plan%drawn, 2)
+  end subroutine plan_shapes
+
+  !> With dampers there are damping ratios.
+  pure subroutine fit_frequencies(model, columns)
+    type(model_t), intent(in) :: model         !! of the deck
+    character(len=*), intent(inout) :: columns !! of the record
+
+    if (is_damped(model)) columns = trim(columns)//" zeta*:-"
+    call fit_columns(model, columns)
+  end subroutine fit_frequencies
+
+  !> Blocks are those of the speeds of the sweep.
+  pure function speeds_of_sweep(variant) result(count)
+    type(variant_results_t), intent(in) :: variant !! with its sweep
+    integer :: count
+
+    count = size(variant%found%sweep%request%speed)
+  end function speeds_of_sweep
 
 end module frequency_report

@@ -4,8 +4,12 @@ module friction_report
   use drive_motions, only: place_columns, table_place
   use friction_study, only: backward_sense, force_value, forward_sense, moment_value, &
     normal_value, power_value, sliding_value
+  use joints_report, only: plan_joints
   use kinds, only: wp
   use load_notes, only: acceleration_note, append_load_notes
+  use models, only: drives_length, model_t
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, fit_columns, report_record_t, rest_table_t, state_table_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_row, rows_t
   use tables, only: name_cell
@@ -14,7 +18,7 @@ module friction_report
   implicit none (type, external)
   private
 
-  public :: friction_notes, holding_notes, holding_words, add_friction, add_holding
+  public :: describe_friction
 
   !> What a linkage at rest does without its drive, or that no drive can move it.
   character(len=*), parameter :: verdicts(7) = [character(len=14) :: "holds", "runs_forward", &
@@ -22,7 +26,35 @@ module friction_report
   integer, parameter :: holds = 1, runs_forward = 2, runs_backward = 3, runs_both = 4, &
     locks_forward = 5, locks_backward = 6, locks_both = 7
 
+  !> `friction.dat`.
+  type, extends(state_table_t) :: friction_table_t
+  contains
+    procedure, nopass :: find_notes => friction_notes
+    procedure, nopass :: plan => plan_joints
+    procedure, nopass :: add_position => add_friction
+  end type friction_table_t
+
+  !> `holding.dat`.
+  type, extends(rest_table_t) :: holding_table_t
+  contains
+    procedure, nopass :: find_notes => holding_notes
+    procedure, nopass :: fit => fit_holding
+    procedure, nopass :: add_at_rest => add_holding
+  end type holding_table_t
+
 contains
+
+  !> REPORT friction.
+  subroutine describe_friction(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="friction", help="joints that rub: forces, losses, "// &
+      "self-locking", studies="friction", positions=.true., masses=.true., numbers=82)
+    call add_table(report, friction_table_t(), "friction", "speed:speed crank:deg pin,"// &
+      "link:name force:force sliding:velocity friction:force moment:moment lost:power")
+    call add_table(report, holding_table_t(), "holding", "crank:deg forward,backward:moment "// &
+      "verdict:name", words=holding_words())
+  end subroutine describe_friction
 
   !> What the columns are; loads.
   subroutine friction_notes(variant, notes)
@@ -74,10 +106,10 @@ contains
 
   !> The words in the column `verdict`.
   pure function holding_words() result(list)
-    type(name_list_t) :: list
+    type(name_list_t) :: list(1)
 
-    list%column = "verdict"
-    list%names = word_list("holds runs_forward runs_backward runs locks_forward locks_backward "// &
+    list(1)%column = "verdict"
+    list(1)%names = word_list("holds runs_forward runs_backward runs locks_forward locks_backward "// &
       "locks")
   end function holding_words
 
@@ -170,5 +202,14 @@ contains
       end associate
     end associate
   end function verdict_at
+
+  !> What holds a crank is a force on a slider.
+  pure subroutine fit_holding(model, columns)
+    type(model_t), intent(in) :: model         !! with its drives
+    character(len=*), intent(inout) :: columns !! of the record
+
+    if (drives_length(model)) columns = "crank:deg forward,backward:force verdict:name"
+    call fit_columns(model, columns)
+  end subroutine fit_holding
 
 end module friction_report

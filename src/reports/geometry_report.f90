@@ -4,6 +4,8 @@ module geometry_report
   use linkage_notes, only: notes_on_linkage
   use mechanisms, only: pins_of_body
   use points_report, only: point_names
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, table_plan_t, whole_table_t
   use spring_cards, only: spring_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
@@ -13,12 +15,30 @@ module geometry_report
   implicit none (type, external)
   private
 
-  public :: geometry_notes, geometry_words, add_geometry
+  public :: describe_geometry
 
   !> Stands in the column `link` for the fixed pivots.
   character(len=*), parameter :: ground = "(ground)"
 
+  !> `geometry.dat`.
+  type, extends(whole_table_t) :: geometry_table_t
+  contains
+    procedure, nopass :: find_notes => geometry_notes
+    procedure, nopass :: plan => plan_geometry
+    procedure, nopass :: add_all => add_geometry
+  end type geometry_table_t
+
 contains
+
+  !> REPORT geometry.
+  subroutine describe_geometry(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="geometry", help="where pins, links and points are, for "// &
+      "drawings", pattern="REPORT geometry crank=a,b,...", offered=.false., studies="geometry")
+    call add_table(report, geometry_table_t(), "geometry", "crank:deg link,part,place:name x,"// &
+      "y:length")
+  end subroutine describe_geometry
 
   !> Class, limit positions and transmission angles of the linkage, and the order of the rows.
   pure subroutine geometry_notes(variant, notes)
@@ -77,13 +97,26 @@ contains
     end do
   end function geometry_words
 
-  !> Appends the rows of a position, or one failed row. One empty line between links and between a
-  !! link and its points, and before a slider or a spring; two between positions.
-  subroutine add_geometry(variant, layout, position, rows)
+  !> Appends the rows of all positions, one after the other.
+  subroutine add_geometry(variant, layout, rows)
     type(variant_results_t), intent(in) :: variant !! with its geometry computed
     type(table_layout_t), intent(in) :: layout     !! of this table
-    integer, intent(in) :: position                !! number in the list of REPORT geometry
     type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: i
+
+    do i = 1, size(variant%found%geometry%crank)
+      call add_drawing(variant, layout, i, rows)
+    end do
+  end subroutine add_geometry
+
+  !> Appends the rows of a position, or one failed row. One empty line between links and between a
+  !! link and its points, and before a slider or a spring; two between positions.
+  subroutine add_drawing(variant, layout, position, rows)
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: position !! number in the list of REPORT geometry
+    type(rows_t), intent(inout) :: rows
 
     integer, allocatable :: pins(:)
     character(len=:), allocatable :: line
@@ -132,7 +165,7 @@ contains
         call add_spring(variant, layout, variant%model%springs(i), position, rows)
       end do
     end associate
-  end subroutine add_geometry
+  end subroutine add_drawing
 
   !> Appends two rows for the ends of a spring or damper, or, for a torsional one, a row for its pin
   !! and one for each of its links, as the card names them: the first pin of that link that is
@@ -220,5 +253,13 @@ contains
       name_cell(part, column_width(layout, 3))//name_cell(place, column_width(layout, 4))// &
       cells(layout, 5, x))
   end subroutine add_place
+
+  !> Names of links, parts and places.
+  subroutine plan_geometry(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%names(:3) = geometry_words(variant)
+  end subroutine plan_geometry
 
 end module geometry_report

@@ -5,6 +5,8 @@ module inertia_report
   use kinds, only: wp
   use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
+  use report_kinds, only: four_bars, other_linkages, report_kind_t
+  use report_types, only: add_table, report_record_t, state_table_t, table_plan_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_row, rows_t
   use tables, only: integer_cell, name_cell
@@ -13,13 +15,43 @@ module inertia_report
   implicit none (type, external)
   private
 
-  public :: inertia_notes, inertia_owners, has_moments, add_inertia
+  public :: describe_inertia, describe_other_inertia
 
   !> Prefixes of the names of pins with masses, of links to which masses are fixed, and of the pins
   !! of blocks.
   character(len=*), parameter :: pin_mark = "pin:", mass_mark = "mass:", block_mark = "block:"
 
+  !> `inertia.dat`.
+  type, extends(state_table_t) :: inertia_table_t
+  contains
+    procedure, nopass :: find_notes => inertia_notes
+    procedure, nopass :: plan => plan_inertia
+    procedure, nopass :: add_position => add_inertia
+  end type inertia_table_t
+
 contains
+
+  !> REPORT inertia.
+  subroutine describe_inertia(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="inertia", help="masses, their accelerations and "// &
+      "inertia forces", studies="inertia", positions=.true., masses=.true., reserved=.true., &
+      numbers=46, linkages=four_bars)
+    call add_table(report, inertia_table_t(), "inertia", "speed:speed crank:deg mass:# "// &
+      "link:name x,y:length ax,ay:acceleration Fx,Fy:force m:mass moment?:moment")
+  end subroutine describe_inertia
+
+  !> REPORT inertia of linkages that are no four-bars.
+  subroutine describe_other_inertia(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="inertia", help="of other linkages: masses and their "// &
+      "inertia forces", studies="inertia", positions=.true., masses=.true., reserved=.true., &
+      linkages=other_linkages)
+    call add_table(report, inertia_table_t(), "inertia", "speed:speed crank:deg mass:# "// &
+      "link:name x,y:length ax,ay:acceleration Fx,Fy:force m:mass moment:moment")
+  end subroutine describe_other_inertia
 
   !> The kinds of masses in the table, and the crank's angular acceleration.
   pure subroutine inertia_notes(variant, notes)
@@ -155,5 +187,14 @@ contains
       cell = name_cell(mechanism%names(mass%number)%text, width)
     end select
   end function owner_cell
+
+  !> The owners of masses, and whether there are moments.
+  subroutine plan_inertia(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%names(1) = inertia_owners(variant)
+    plan%has_optional = has_moments(variant)
+  end subroutine plan_inertia
 
 end module inertia_report

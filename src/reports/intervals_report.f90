@@ -1,6 +1,8 @@
 !> `intervals.dat`: the intervals of speed in which vibrations grow.
 module intervals_report
   use models, only: accuracy_of_study, report_number
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, whole_table_t
   use response_notes, only: damping_note, without_note
   use stability_types, only: instability_t, unstable_flip, unstable_fold
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
@@ -12,11 +14,29 @@ module intervals_report
   implicit none (type, external)
   private
 
-  public :: intervals_notes, interval_words, add_intervals
+  public :: describe_intervals
 
   character(len=*), parameter :: longest_kind = "combination", longest_modes = "20+20"
 
+  !> `intervals.dat`.
+  type, extends(whole_table_t) :: intervals_table_t
+  contains
+    procedure, nopass :: find_notes => intervals_notes
+    procedure, nopass :: add_all => add_intervals
+  end type intervals_table_t
+
 contains
+
+  !> REPORT intervals.
+  subroutine describe_intervals(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="intervals", help="all speeds at which vibrations grow", &
+      pattern="REPORT intervals [growth=] [accuracy=]", default="growth=1e-4 accuracy=1e-5", &
+      studies="intervals", response=.true.)
+    call add_table(report, intervals_table_t(), "intervals", "from,to:speed kind,modes:name "// &
+      "largest_growth,growth_error:- at,error:speed", words=interval_words())
+  end subroutine describe_intervals
 
   !> Range, meaning of the columns, damping, accuracy.
   pure subroutine intervals_notes(variant, notes)

@@ -4,9 +4,12 @@ module joints_report
   use joint_study, only: drives_at_speed, joint_t, joints_at_speed
   use kinds, only: wp
   use drive_cards, only: moves_along
+  use links_report, only: pin_names
   use load_notes, only: acceleration_note, append_load_notes
   use models, only: model_t
   use position_rows, only: add_position_row
+  use report_kinds, only: other_linkages, report_kind_t
+  use report_types, only: add_table, fit_columns, report_record_t, state_table_t, table_plan_t
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
@@ -17,16 +20,63 @@ module joints_report
   implicit none (type, external)
   private
 
-  public :: joints_notes, joint_owners, owner_cell, add_joints, drives_notes, drive_names, &
-    drive_columns, add_drives, add_shaking, reference_words, open_words, &
-    add_open_row, friction_note
+  public :: describe_joints, describe_drives, plan_joints, joint_owners, owner_cell, &
+    drives_notes, reference_words, open_words, add_open_row, friction_note
 
   !> Where friction is in the columns, of a linkage with FRICTION cards.
   character(len=*), parameter :: friction_note = "friction: within fx and fy of a block along "// &
     "its line, within moment in a pin, on both links or on the guide of the block; a ground "// &
     "pivot bears the opposite"
 
+  !> `reactions.dat` of other linkages.
+  type, extends(state_table_t) :: joints_table_t
+  contains
+    procedure, nopass :: find_notes => joints_notes
+    procedure, nopass :: plan => plan_joints
+    procedure, nopass :: add_position => add_joints
+  end type joints_table_t
+
+  !> `drive.dat` of other linkages.
+  type, extends(state_table_t) :: drives_table_t
+  contains
+    procedure, nopass :: find_notes => drives_notes
+    procedure, nopass :: plan => plan_drives
+    procedure, nopass :: fit => fit_drives
+    procedure, nopass :: add_position => add_drives
+  end type drives_table_t
+
+  !> `shaking.dat`.
+  type, extends(state_table_t) :: shaking_table_t
+  contains
+    procedure, nopass :: find_notes => drives_notes
+    procedure, nopass :: add_position => add_shaking
+  end type shaking_table_t
+
 contains
+
+  !> REPORT reactions of linkages that are no four-bars.
+  subroutine describe_joints(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="reactions", help="of other linkages: forces and "// &
+      "moments in all joints", pattern="REPORT reactions [columns=]", studies="joints", &
+      positions=.true., masses=.true., linkages=other_linkages)
+    call add_table(report, joints_table_t(), "reactions", "speed:speed crank:deg pin,"// &
+      "link:name fx,fy:force moment:moment")
+  end subroutine describe_joints
+
+  !> REPORT drive of linkages that are no four-bars.
+  subroutine describe_drives(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="drive", help="of other linkages: the drives, shaking "// &
+      "force and moment", studies="joints", positions=.true., masses=.true., &
+      linkages=other_linkages)
+    call add_table(report, drives_table_t(), "drive", "speed:speed crank:deg drive:name "// &
+      "position:deg rate:rate force:moment")
+    call add_table(report, shaking_table_t(), "shaking", "speed:speed crank:deg shaking_x,"// &
+      "shaking_y:force shaking_moment:moment")
+  end subroutine describe_drives
 
   !> On what the forces act, axes and signs, loads.
   pure subroutine joints_notes(variant, notes)
@@ -287,5 +337,31 @@ contains
         rates(1)**2*shaking(:, 1, state) + rates(2)*shaking(:, 2, state), rows)
     end associate
   end subroutine add_shaking
+
+  !> Columns `pin` and `link`, where that of a block is its guide.
+  subroutine plan_joints(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%names(1) = pin_names(variant)
+    plan%names(2) = joint_owners(variant)
+  end subroutine plan_joints
+
+  !> A column `drive`.
+  subroutine plan_drives(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%names(1) = drive_names(variant)
+  end subroutine plan_drives
+
+  !> Columns in the units of the drives.
+  pure subroutine fit_drives(model, columns)
+    type(model_t), intent(in) :: model         !! with its drives
+    character(len=*), intent(inout) :: columns !! of the record
+
+    columns = drive_columns(model)
+    call fit_columns(model, columns)
+  end subroutine fit_drives
 
 end module joints_report

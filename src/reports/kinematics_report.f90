@@ -6,6 +6,8 @@ module kinematics_report
   use linkage_notes, only: angle_note, notes_on_linkage
   use load_notes, only: acceleration_note
   use position_rows, only: add_position_row
+  use report_kinds, only: four_bars, report_kind_t
+  use report_types, only: add_table, report_record_t, state_table_t
   use table_columns, only: table_layout_t
   use table_rows, only: rows_t
   use text, only: append_string, string_t
@@ -13,9 +15,28 @@ module kinematics_report
   implicit none (type, external)
   private
 
-  public :: kinematics_notes, add_kinematics
+  public :: describe_kinematics
+
+  !> `kinematics.dat` of a four-bar.
+  type, extends(state_table_t) :: kinematics_table_t
+  contains
+    procedure, nopass :: find_notes => kinematics_notes
+    procedure, nopass :: add_position => add_kinematics
+  end type kinematics_table_t
 
 contains
+
+  !> REPORT kinematics.
+  subroutine describe_kinematics(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="kinematics", help="how the links move", &
+      pattern="REPORT kinematics [columns=]", studies="kinematics", positions=.true., &
+      reserved=.true., linkages=four_bars, numbers=11)
+    call add_table(report, kinematics_table_t(), "kinematics", "speed:speed crank,theta3,"// &
+      "theta4:deg omega3,omega4:rate alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length "// &
+      "transmission_angle:deg")
+  end subroutine describe_kinematics
 
   !> Notes on the linkage, the links and pins that the columns refer to, the crank's acceleration.
   pure subroutine kinematics_notes(variant, notes)

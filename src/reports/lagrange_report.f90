@@ -3,7 +3,10 @@ module lagrange_report
   use drive_motions, only: drive_rates
   use lagrange_study, only: lagrange_at_speed
   use load_notes, only: append_load_notes, append_motion_notes, potential_note
+  use models, only: drives_length, model_t
   use position_rows, only: add_position_row
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, fit_columns, report_record_t, state_table_t
   use table_columns, only: table_layout_t
   use table_rows, only: rows_t
   use text, only: append_string, string_t
@@ -11,9 +14,28 @@ module lagrange_report
   implicit none (type, external)
   private
 
-  public :: lagrange_notes, add_lagrange
+  public :: describe_lagrange
+
+  !> `lagrange.dat`.
+  type, extends(state_table_t) :: lagrange_table_t
+  contains
+    procedure, nopass :: find_notes => lagrange_notes
+    procedure, nopass :: fit => fit_lagrange
+    procedure, nopass :: add_position => add_lagrange
+  end type lagrange_table_t
 
 contains
+
+  !> REPORT lagrange.
+  subroutine describe_lagrange(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="lagrange", help="the torque from energies", &
+      pattern="REPORT lagrange [columns=]", studies="lagrange", positions=.true., masses=.true., &
+      numbers=5)
+    call add_table(report, lagrange_table_t(), "lagrange", "speed:speed crank:deg M,"// &
+      "dM:inertia V,gravity,load,torque:moment kinetic,potential:energy")
+  end subroutine describe_lagrange
 
   !> Definition of the terms, and the loads.
   pure subroutine lagrange_notes(variant, notes)
@@ -43,5 +65,15 @@ contains
         lagrange_at_speed(variant%found%lagrange, state, rates(1), rates(2), speed), rows)
     end associate
   end subroutine add_lagrange
+
+  !> What turns a crank is a force on a slider, and its inertia a mass.
+  pure subroutine fit_lagrange(model, columns)
+    type(model_t), intent(in) :: model         !! with its drives
+    character(len=*), intent(inout) :: columns !! of the record
+
+    if (drives_length(model)) columns = "speed:speed crank:deg M:mass dM:mass_per_length "// &
+      "V,gravity,load,torque:force kinetic,potential:energy"
+    call fit_columns(model, columns)
+  end subroutine fit_lagrange
 
 end module lagrange_report

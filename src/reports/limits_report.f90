@@ -6,6 +6,9 @@ module limits_report
   use kinds, only: wp
   use limits_study, only: angle_of_body, crank_range_t, drive_range_t, place_of_slider, &
     quantity_t, time_ratio, transmission_of_dyad, transmission_of_lines
+  use limits_words, only: limits_names, limits_notes
+  use report_kinds, only: other_linkages, report_kind_t
+  use report_types, only: add_table, report_record_t, table_plan_t, whole_table_t
   use table_columns, only: cells, column_width, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: name_cell
@@ -14,9 +17,27 @@ module limits_report
   implicit none (type, external)
   private
 
-  public :: add_limits
+  public :: describe_limits
+
+  !> `linkage.dat` of other linkages.
+  type, extends(whole_table_t) :: limits_table_t
+  contains
+    procedure, nopass :: find_notes => limits_notes
+    procedure, nopass :: plan => plan_limits
+    procedure, nopass :: add_all => add_limits
+  end type limits_table_t
 
 contains
+
+  !> REPORT linkage of linkages that are no four-bars.
+  subroutine describe_limits(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="linkage", help="of other linkages: ranges, swings, "// &
+      "strokes, time ratios", studies="limits", linkages=other_linkages)
+    call add_table(report, limits_table_t(), "linkage", "part,quantity:name crank:deg "// &
+      "value:see_unit unit:name")
+  end subroutine describe_limits
 
   !> Appends all rows.
   subroutine add_limits(variant, layout, rows)
@@ -268,5 +289,13 @@ contains
     call add_row(rows, part_cell//name_cell(quantity, column_width(layout, 2))//cells(layout, 3, &
       [crank, value])//unit_cell)
   end subroutine put
+
+  !> Names of parts, quantities and units.
+  subroutine plan_limits(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%names(:3) = limits_names(variant)
+  end subroutine plan_limits
 
 end module limits_report

@@ -5,10 +5,14 @@ module linkage_motion_report
   use linkage_motion_study, only: free_drives, linkage_motion_tolerance
   use load_notes, only: potential_note, work_note
   use models, only: drives_length, model_t, report_number
+  use motion_forces_report, only: motion_forces_table_t
+  use motion_pins_report, only: motion_pins_table_t, time_in_table
   use motion_report, only: append_gear_notes, implicit_words, most_listed, power_columns, &
-    power_note, steps_line, time_in_table
+    power_note, steps_line
   use motion_study, only: undetermined_message
   use plan_words, only: group_names
+  use report_kinds, only: other_linkages, report_kind_t
+  use report_types, only: add_table, fit_columns, report_record_t, table_plan_t, whole_table_t
   use table_columns, only: cells, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: decimal_cell
@@ -19,12 +23,36 @@ module linkage_motion_report
   implicit none (type, external)
   private
 
-  public :: linkage_motion_notes, linkage_motion_columns, linkage_motion_count, &
-    add_linkage_motion, linkage_motion_log
+  public :: describe_linkage_motion, linkage_motion_log
 
   character(len=*), parameter :: line_feed = achar(10)
 
+  !> `motion.dat` of other linkages.
+  type, extends(whole_table_t) :: linkage_motion_table_t
+  contains
+    procedure, nopass :: find_notes => linkage_motion_notes
+    procedure, nopass :: plan => plan_linkage_motion
+    procedure, nopass :: fit => fit_linkage_motion
+    procedure, nopass :: add_all => add_linkage_motion
+  end type linkage_motion_table_t
+
 contains
+
+  !> REPORT motion of linkages that are no four-bars.
+  subroutine describe_linkage_motion(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="motion", help="of other linkages: the motion under "// &
+      "motor and loads", pattern="REPORT motion crank= [speed=0] end= step= "// &
+      "[columns=accelerations,forces,power] [pins=no|yes] [change_points=stop|through]", &
+      default="speed=0 pins=no", studies="motion", masses=.true., linkages=other_linkages)
+    call add_table(report, linkage_motion_table_t(), "motion", "time:time position*:deg "// &
+      "rate*:rate torque:moment kinetic,potential,work,energy_error:energy "// &
+      "acceleration*:rad/s2 motor_power,gear_loss,load_power:power")
+    call add_table(report, motion_pins_table_t(), "motion_pins", "time:time pin:name x,y:length")
+    call add_table(report, motion_forces_table_t(), "motion_forces", "time:time pin,"// &
+      "link:name fx,fy:force moment:moment")
+  end subroutine describe_linkage_motion
 
   !> The coordinates, with their units if these differ, the energies, the initial energy and the
   !! tolerance.
@@ -91,14 +119,6 @@ contains
     velocity = table_unit("velocity", model%outputs)
     words = " in "//length%name//" and "//velocity%name
   end function unit_words
-
-  !> Number of coordinates of the motion.
-  pure function linkage_motion_count(model) result(number)
-    type(model_t), intent(in) :: model !! with its drives
-    integer :: number
-
-    number = size(free_drives(model%drives%is_free))
-  end function linkage_motion_count
 
   !> The columns of `motion.dat`, in the units of the coordinates; mixed ones in the units of the
   !! deck, see its head.
@@ -233,5 +253,22 @@ contains
     end associate
     text = buffer_text(buffer)
   end function linkage_motion_log
+
+  !> A column for every drive that is free.
+  subroutine plan_linkage_motion(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%count = size(free_drives(variant%model%drives%is_free))
+  end subroutine plan_linkage_motion
+
+  !> The columns that the card asks for, in the units of the drives.
+  pure subroutine fit_linkage_motion(model, columns)
+    type(model_t), intent(in) :: model         !! with REPORT motion
+    character(len=*), intent(inout) :: columns !! of the record
+
+    columns = linkage_motion_columns(model)
+    call fit_columns(model, columns)
+  end subroutine fit_linkage_motion
 
 end module linkage_motion_report

@@ -4,6 +4,8 @@ module linkage_report
   use kinds, only: wp
   use linkage_notes, only: angle_note
   use linkage_study, only: event_names, special_position_t
+  use report_kinds, only: four_bars, report_kind_t
+  use report_types, only: add_table, report_record_t, whole_table_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
@@ -12,12 +14,29 @@ module linkage_report
   implicit none (type, external)
   private
 
-  public :: linkage_remarks, linkage_words, add_linkage
+  public :: describe_linkage
 
   character(len=*), parameter :: branch_names(2) = [character(len=7) :: "open", "crossed"]
   integer, parameter :: digits = 12
 
+  !> `linkage.dat` of a four-bar.
+  type, extends(whole_table_t) :: linkage_table_t
+  contains
+    procedure, nopass :: find_notes => linkage_remarks
+    procedure, nopass :: add_all => add_linkage
+  end type linkage_table_t
+
 contains
+
+  !> REPORT linkage.
+  subroutine describe_linkage(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="linkage", help="class, limits and special positions", &
+      studies="linkage", linkages=four_bars)
+    call add_table(report, linkage_table_t(), "linkage", "branch,event:name crank,theta3,"// &
+      "theta4,transmission_angle:deg", words=linkage_words())
+  end subroutine describe_linkage
 
   !> Class, mobility, ranges, change points, and the meaning of the words in the table.
   pure subroutine linkage_remarks(variant, notes)

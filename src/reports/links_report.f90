@@ -7,6 +7,8 @@ module links_report
   use links_study, only: link_at_speed, pin_at_speed
   use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
+  use report_kinds, only: other_linkages, report_kind_t
+  use report_types, only: add_table, report_record_t, state_table_t, table_plan_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_row, rows_t
   use tables, only: name_cell
@@ -15,9 +17,45 @@ module links_report
   implicit none (type, external)
   private
 
-  public :: links_notes, add_links, pins_notes, pin_names, add_pins
+  public :: describe_links, describe_pins, plan_pins, pin_names
+
+  !> `kinematics.dat` of other linkages.
+  type, extends(state_table_t) :: links_table_t
+  contains
+    procedure, nopass :: find_notes => links_notes
+    procedure, nopass :: add_position => add_links
+  end type links_table_t
+
+  !> `pins.dat`.
+  type, extends(state_table_t) :: pins_table_t
+  contains
+    procedure, nopass :: find_notes => pins_notes
+    procedure, nopass :: plan => plan_pins
+    procedure, nopass :: add_position => add_pins
+  end type pins_table_t
 
 contains
+
+  !> REPORT kinematics of linkages that are no four-bars.
+  subroutine describe_links(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="kinematics", help="of other linkages: how the links move", &
+      pattern="REPORT kinematics [columns=]", studies="kinematics", positions=.true., &
+      reserved=.true., linkages=other_linkages)
+    call add_table(report, links_table_t(), "kinematics", "speed:speed crank:deg link:name "// &
+      "theta:deg omega:rate alpha:rad/s2")
+  end subroutine describe_links
+
+  !> REPORT pins.
+  subroutine describe_pins(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="pins", help="paths, velocities and accelerations of "// &
+      "the pins", pattern="REPORT pins [columns=]", studies="kinematics", positions=.true.)
+    call add_table(report, pins_table_t(), "pins", "speed:speed crank:deg pin:name x,"// &
+      "y:length vx,vy:velocity ax,ay:acceleration")
+  end subroutine describe_pins
 
   !> How the linkage is placed, from where to where the angle of every link is measured, the
   !! acceleration of the first drive.
@@ -139,5 +177,13 @@ contains
       end associate
     end associate
   end subroutine add_pins
+
+  !> A column `pin`.
+  subroutine plan_pins(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%names(1) = pin_names(variant)
+  end subroutine plan_pins
 
 end module links_report

@@ -9,6 +9,8 @@ module loci_report
   use frequency_study, only: failure_at
   use loci_study, only: event_ambiguous, event_crossing, event_start, event_veering, failed_rows, &
     is_empty, locus_row_t, rows_of_locus
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, whole_table_t
   use table_columns, only: cells, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: integer_cell, name_cell
@@ -17,12 +19,30 @@ module loci_report
   implicit none (type, external)
   private
 
-  public :: loci_notes, locus_words, add_loci
+  public :: describe_branches
 
   !> Width of the column `event`: the longest word, and a blank.
   integer, parameter :: event_width = 18
 
+  !> `branches.dat`.
+  type, extends(whole_table_t) :: loci_table_t
+  contains
+    procedure, nopass :: find_notes => loci_notes
+    procedure, nopass :: add_all => add_loci
+  end type loci_table_t
+
 contains
+
+  !> REPORT branches.
+  subroutine describe_branches(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="branches", help="frequencies followed by their shapes", &
+      studies="frequencies loci", positions=.true., beams=.true., frequencies=.true., &
+      reserved=.true.)
+    call add_table(report, loci_table_t(), "branches", "speed:speed crank:deg branch,mode:# "// &
+      "frequency:Hz mac:- event:name", words=locus_words())
+  end subroutine describe_branches
 
   !> Effects in the equations, and the meaning of `mac` and the events.
   pure subroutine loci_notes(variant, notes)
@@ -39,11 +59,11 @@ contains
 
   !> The column `event`, with a word as long as the longest.
   pure function locus_words() result(list)
-    type(name_list_t) :: list
+    type(name_list_t) :: list(1)
 
-    list%column = "event"
-    allocate (list%names(1))
-    list%names(1)%text = repeat("x", event_width - 1)
+    list(1)%column = "event"
+    allocate (list(1)%names(1))
+    list(1)%names(1)%text = repeat("x", event_width - 1)
   end function locus_words
 
   !> Appends one row per position and locus. One block per speed: first the failed rows, then locus

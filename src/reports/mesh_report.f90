@@ -1,6 +1,8 @@
 !> `mesh.dat`: the finite element model at every position.
 module mesh_report
   use mesh_study, only: elements_at, mesh_element_t
+  use report_kinds, only: four_bars, report_kind_t
+  use report_types, only: add_table, report_record_t, rest_table_t
   use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_gap, add_row, rows_t
   use tables, only: integer_cell, name_cell
@@ -9,9 +11,26 @@ module mesh_report
   implicit none (type, external)
   private
 
-  public :: mesh_notes, add_mesh
+  public :: describe_mesh
+
+  !> `mesh.dat`.
+  type, extends(rest_table_t) :: mesh_table_t
+  contains
+    procedure, nopass :: find_notes => mesh_notes
+    procedure, nopass :: add_at_rest => add_mesh
+  end type mesh_table_t
 
 contains
+
+  !> REPORT mesh.
+  subroutine describe_mesh(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="mesh", help="the finite element model", positions=.true., &
+      beams=.true., reserved=.true., linkages=four_bars)
+    call add_table(report, mesh_table_t(), "mesh", "crank:deg link:name element,node_a,"// &
+      "node_b:# xa,ya,xb,yb:length mass_a,mass_b:mass")
+  end subroutine describe_mesh
 
   !> Meaning of the columns of masses and nodes.
   pure subroutine mesh_notes(variant, notes)

@@ -1,11 +1,12 @@
 !> `motion_forces.dat`: the forces in the joints of a linkage that is no four-bar, while it moves
 !! under its motor and loads.
 module motion_forces_report
-  use joints_report, only: add_open_row, friction_note, owner_cell
+  use joints_report, only: add_open_row, friction_note, owner_cell, plan_joints
   use kinds, only: wp
   use load_notes, only: append_load_notes
-  use motion_report, only: time_in_table
+  use motion_pins_report, only: time_in_table
   use motion_study, only: undetermined_message
+  use report_types, only: whole_table_t
   use table_columns, only: cells, column_width, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: decimal_cell, name_cell
@@ -15,7 +16,15 @@ module motion_forces_report
   implicit none (type, external)
   private
 
-  public :: motion_forces_notes, add_motion_forces
+  public :: motion_forces_table_t
+
+  !> `motion_forces.dat`.
+  type, extends(whole_table_t) :: motion_forces_table_t
+  contains
+    procedure, nopass :: find_notes => motion_forces_notes
+    procedure, nopass :: plan => plan_joints
+    procedure, nopass :: add_all => add_motion_forces
+  end type motion_forces_table_t
 
 contains
 

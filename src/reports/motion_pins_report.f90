@@ -2,7 +2,9 @@
 module motion_pins_report
   use errors, only: error_t
   use kinds, only: wp
-  use motion_report, only: time_in_table
+  use links_report, only: plan_pins
+  use models, only: model_t, report_number
+  use report_types, only: whole_table_t
   use table_columns, only: cells, column_width, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: decimal_cell, name_cell
@@ -12,15 +14,25 @@ module motion_pins_report
   implicit none (type, external)
   private
 
-  public :: motion_pins_notes, add_motion_pins
+  public :: motion_pins_table_t, time_in_table
+
+  !> `motion_pins.dat`.
+  type, extends(whole_table_t) :: motion_pins_table_t
+  contains
+    procedure, nopass :: find_notes => motion_pins_notes
+    procedure, nopass :: plan => plan_pins
+    procedure, nopass :: add_all => add_motion_pins
+  end type motion_pins_table_t
 
 contains
 
   !> The axes.
-  pure subroutine motion_pins_notes(notes)
+  pure subroutine motion_pins_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its mechanism
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
-    call append_string(notes, "global axes; instants of motion.dat")
+    if (size(variant%mechanism%pin_names) > 0) call append_string(notes, "global axes; "// &
+      "instants of motion.dat")
   end subroutine motion_pins_notes
 
   !> Appends, for every instant, a row per moving pin, and a failed row if the motion ends before
@@ -74,5 +86,17 @@ contains
     end subroutine add_end
 
   end subroutine add_motion_pins
+
+  !> Time of an instant in the unit of the table: the number that the deck has or would have.
+  pure function time_in_table(model, number) result(time)
+    type(model_t), intent(in) :: model !! with REPORT motion
+    integer, intent(in) :: number !! of the instant, from 1
+    real(wp) :: time
+
+    associate (instants => model%reports(report_number(model, "motion"))%instants)
+      time = from_si(instants%value(number), table_factor("time", model%outputs))
+      if (instants%unit%name == model%units%time%name) time = instants%written(number)
+    end associate
+  end function time_in_table
 
 end module motion_pins_report

@@ -4,10 +4,13 @@ module motion_report
   use linkage_notes, only: angle_note
   use load_notes, only: potential_note, work_note
   use models, only: model_t, report_number
+  use motion_pins_report, only: motion_pins_table_t, time_in_table
   use motion_study, only: motion_result_t, motion_tolerance, undetermined_message
   use motor_cards, only: is_geared, motor_t
   use number_text, only: number_width
   use report_cards, only: report_t
+  use report_kinds, only: four_bars, report_kind_t
+  use report_types, only: add_table, fit_columns, report_record_t, whole_table_t
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
@@ -19,9 +22,8 @@ module motion_report
   implicit none (type, external)
   private
 
-  public :: motion_columns, motion_columns_of, motion_notes, motion_words, add_motion, motion_log, &
-    steps_line, implicit_words, time_in_table, most_listed, power_columns, power_note, &
-    append_gear_notes
+  public :: describe_motion, motion_log, steps_line, implicit_words, most_listed, &
+    power_columns, power_note, append_gear_notes
 
   !> What `columns=` adds. Forces are those of `reactions.dat`.
   character(len=*), parameter :: acceleration_columns = " alpha2,alpha3,alpha4:rad/s2", &
@@ -48,7 +50,27 @@ module motion_report
 
   character(len=*), parameter :: line_feed = achar(10)
 
+  !> `motion.dat` of a four-bar.
+  type, extends(whole_table_t) :: motion_table_t
+  contains
+    procedure, nopass :: find_notes => motion_notes
+    procedure, nopass :: fit => fit_motion
+    procedure, nopass :: add_all => add_motion
+  end type motion_table_t
+
 contains
+
+  !> REPORT motion.
+  subroutine describe_motion(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="motion", help="the motion under motor and loads", &
+      pattern="REPORT motion crank= [speed=0] end= step= [columns=accelerations,forces,"// &
+      "power] [pins=no|yes] [change_points=stop|through]", default="speed=0 pins=no", &
+      studies="motion", masses=.true., linkages=four_bars)
+    call add_table(report, motion_table_t(), "motion", motion_columns, words=motion_words())
+    call add_table(report, motion_pins_table_t(), "motion_pins", "time:time pin:name x,y:length")
+  end subroutine describe_motion
 
   !> The columns that a deck asks for.
   pure function motion_columns_of(model) result(columns)
@@ -111,10 +133,10 @@ contains
 
   !> The words in the column `branch`.
   pure function motion_words() result(list)
-    type(name_list_t) :: list
+    type(name_list_t) :: list(1)
 
-    list%column = "branch"
-    list%names = word_list(branch_names)
+    list(1)%column = "branch"
+    list(1)%names = word_list(branch_names)
   end function motion_words
 
   !> Appends one row per instant, and a failed row if the motion ends before its end time.
@@ -170,18 +192,6 @@ contains
     if (asked%with_forces) values = [values, motion%force(:, instant)]
   end function extra_values
 
-  !> Time of an instant in the unit of the table: the number that the deck has or would have.
-  pure function time_in_table(model, number) result(time)
-    type(model_t), intent(in) :: model !! with REPORT motion
-    integer, intent(in) :: number !! of the instant, from 1
-    real(wp) :: time
-
-    associate (instants => model%reports(report_number(model, "motion"))%instants)
-      time = from_si(instants%value(number), table_factor("time", model%outputs))
-      if (instants%unit%name == model%units%time%name) time = instants%written(number)
-    end associate
-  end function time_in_table
-
   pure function branch_of(is_open) result(name)
     logical, intent(in) :: is_open
     character(len=7) :: name
@@ -234,5 +244,14 @@ contains
       " implicit ones of order 17, where the equations are stiff"
     line = line//", "//plural(rows, "row")//line_feed
   end function steps_line
+
+  !> The columns that the card asks for.
+  pure subroutine fit_motion(model, columns)
+    type(model_t), intent(in) :: model         !! with REPORT motion
+    character(len=*), intent(inout) :: columns !! of the record
+
+    columns = motion_columns_of(model)
+    call fit_columns(model, columns)
+  end subroutine fit_motion
 
 end module motion_report

@@ -3,7 +3,9 @@
 module peaks_report
   use kinds, only: wp
   use mechanisms, only: way_length
-  use response_notes, only: append_response_notes
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, speed_table_t
+  use response_notes, only: add_failed_speed, append_response_notes, has_response
   use response_types, only: peak_t
   use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_row, rows_t
@@ -13,9 +15,28 @@ module peaks_report
   implicit none (type, external)
   private
 
-  public :: peaks_notes, add_peaks
+  public :: describe_peaks
+
+  !> `peaks.dat`.
+  type, extends(speed_table_t) :: peaks_table_t
+  contains
+    procedure, nopass :: find_notes => peaks_notes
+    procedure, nopass :: add_speed => add_peaks
+  end type peaks_table_t
 
 contains
+
+  !> REPORT peaks.
+  subroutine describe_peaks(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="peaks", help="largest strain, stress and deflection of "// &
+      "every link", pattern="REPORT peaks [accuracy=] [columns=]", default="accuracy=1e-6", &
+      studies="response", response=.true.)
+    call add_table(report, peaks_table_t(), "peaks", "speed:speed link:name strain:- "// &
+      "strain_at:length strain_crank:deg stress:stress stress_at:length stress_crank:deg "// &
+      "deflection,deflection_at:length deflection_crank:deg power:power error:-")
+  end subroutine describe_peaks
 
   !> Meaning of the columns, and what all tables of the response say.
   pure subroutine peaks_notes(variant, notes)
@@ -33,7 +54,7 @@ contains
 
   !> Appends the rows of a speed, one per link that bends.
   subroutine add_peaks(variant, layout, speed, rows)
-    type(variant_results_t), intent(in) :: variant !! with a response at this speed
+    type(variant_results_t), intent(in) :: variant !! with its response computed
     type(table_layout_t), intent(in) :: layout     !! of this table
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
@@ -41,6 +62,10 @@ contains
     character(len=:), allocatable :: row
     integer :: b
 
+    if (.not. has_response(variant, speed)) then
+      call add_failed_speed(variant, speed, rows)
+      return
+    end if
     associate (found => variant%found%response%at_speed(speed), mechanism => variant%mechanism)
       do b = 1, size(mechanism%names)
         if (.not. mechanism%linkage%bodies(b)%bends) cycle

@@ -5,6 +5,8 @@ module points_report
   use kinds, only: wp
   use load_notes, only: acceleration_note
   use points_study, only: point_at_speed
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, state_table_t, table_plan_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t, table_unit
   use table_rows, only: add_row, rows_t
   use tables, only: name_cell
@@ -13,9 +15,27 @@ module points_report
   implicit none (type, external)
   private
 
-  public :: points_notes, point_names, add_points
+  public :: describe_points, point_names
+
+  !> `points.dat`.
+  type, extends(state_table_t) :: points_table_t
+  contains
+    procedure, nopass :: find_notes => points_notes
+    procedure, nopass :: plan => plan_points
+    procedure, nopass :: add_position => add_points
+  end type points_table_t
 
 contains
+
+  !> REPORT points.
+  subroutine describe_points(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="points", help="paths, velocities and accelerations of "// &
+      "points", pattern="REPORT points [columns=]", studies="points", positions=.true.)
+    call add_table(report, points_table_t(), "points", "speed:speed crank:deg point:name x,"// &
+      "y:length vx,vy:velocity ax,ay:acceleration")
+  end subroutine describe_points
 
   !> Place of every point on its link, axes, the crank's angular acceleration.
   pure subroutine points_notes(variant, notes)
@@ -72,5 +92,13 @@ contains
       end do
     end associate
   end subroutine add_points
+
+  !> A column `point`.
+  subroutine plan_points(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%names(1) = point_names(variant)
+  end subroutine plan_points
 
 end module points_report

@@ -4,6 +4,8 @@ module reactions_report
   use load_notes, only: append_load_notes, append_motion_notes
   use position_rows, only: add_position_row
   use reactions_study, only: reactions_at_speed
+  use report_kinds, only: four_bars, report_kind_t
+  use report_types, only: add_table, report_record_t, state_table_t
   use table_columns, only: table_layout_t
   use table_rows, only: rows_t
   use text, only: append_string, string_t
@@ -11,9 +13,28 @@ module reactions_report
   implicit none (type, external)
   private
 
-  public :: reactions_notes, add_reactions
+  public :: describe_reactions
+
+  !> `reactions.dat` of a four-bar.
+  type, extends(state_table_t) :: reactions_table_t
+  contains
+    procedure, nopass :: find_notes => reactions_notes
+    procedure, nopass :: add_position => add_reactions
+  end type reactions_table_t
 
 contains
+
+  !> REPORT reactions.
+  subroutine describe_reactions(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="reactions", help="forces in the pins, torque, shaking "// &
+      "force and moment", pattern="REPORT reactions [columns=]", studies="reactions", &
+      positions=.true., masses=.true., linkages=four_bars, numbers=48)
+    call add_table(report, reactions_table_t(), "reactions", "speed:speed crank:deg O2x,O2y,"// &
+      "A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force torque:moment shaking_x,shaking_y:force "// &
+      "shaking_moment:moment")
+  end subroutine describe_reactions
 
   !> The link on which each force acts, axes and signs, definitions, loads.
   pure subroutine reactions_notes(variant, notes)

@@ -1,6 +1,6 @@
 !> Rows of a table, found on several threads and put in order.
 module report_rows
-  use report_table, only: add_item_rows, table_plan_t
+  use report_types, only: add_item_rows, table_plan_t
   use table_columns, only: find_chosen_cells
   use table_rows, only: append_rows, keep_cells, rows_t
   use variant_results, only: variant_results_t

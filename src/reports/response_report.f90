@@ -1,6 +1,8 @@
 !> `response.dat`: displacements of pins and points from where they are with rigid links.
 module response_report
   use constants, only: degree
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, response_table_t, table_plan_t
   use response_notes, only: append_response_notes
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_row, rows_t
@@ -10,9 +12,28 @@ module response_report
   implicit none (type, external)
   private
 
-  public :: response_notes_of, response_point_names, add_response
+  public :: describe_response, plan_response
+
+  !> `response.dat`.
+  type, extends(response_table_t) :: response_points_table_t
+  contains
+    procedure, nopass :: find_notes => response_notes_of
+    procedure, nopass :: plan => plan_response
+    procedure, nopass :: add_position => add_response
+  end type response_points_table_t
 
 contains
+
+  !> REPORT response.
+  subroutine describe_response(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="response", help="how far pins and points are from "// &
+      "where rigid links are", pattern="REPORT response [accuracy=] [columns=]", &
+      default="accuracy=1e-6", studies="response", positions=.true., response=.true.)
+    call add_table(report, response_points_table_t(), "response", "speed:speed crank:deg "// &
+      "point:name ux,uy:length rotation:deg error:-")
+  end subroutine describe_response
 
   !> Meaning of the columns, and what all tables of the response say.
   pure subroutine response_notes_of(variant, notes)
@@ -63,5 +84,13 @@ contains
       end do
     end associate
   end subroutine add_response
+
+  !> A column `point`.
+  subroutine plan_response(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%names(1) = response_point_names(variant)
+  end subroutine plan_response
 
 end module response_report

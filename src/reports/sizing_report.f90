@@ -8,6 +8,8 @@ module sizing_report
   use load_notes, only: acceleration_note, append_load_notes
   use models, only: report_number
   use motor_cards, only: is_geared
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, table_plan_t, whole_table_t
   use sizing_study, only: sized_t, sizing_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
@@ -18,7 +20,7 @@ module sizing_report
   implicit none (type, external)
   private
 
-  public :: sizing_notes, sizing_names, add_sizing
+  public :: describe_sizing
 
   character(len=*), parameter :: quantity_words(*) = [character(len=20) :: "peak_torque", &
     "rms_torque", "mean_torque", "peak_force", "rms_force", "mean_force", "cubic_mean_force", &
@@ -41,7 +43,25 @@ module sizing_report
     real(wp) :: error = 0.0_wp       !! estimated, a share of the peak
   end type value_t
 
+  !> `sizing.dat`.
+  type, extends(whole_table_t) :: sizing_table_t
+  contains
+    procedure, nopass :: find_notes => sizing_notes
+    procedure, nopass :: plan => plan_sizing
+    procedure, nopass :: add_all => add_sizing
+  end type sizing_table_t
+
 contains
+
+  !> REPORT sizing.
+  subroutine describe_sizing(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="sizing", help="peaks and means of drives and bearings, "// &
+      "the flywheel", pattern="REPORT sizing [fluctuation=]", studies="sizing", masses=.true.)
+    call add_table(report, sizing_table_t(), "sizing", "speed:speed part,pin,quantity:name "// &
+      "value:see_unit unit:name crank:deg error:-")
+  end subroutine describe_sizing
 
   !> Over what, signs, which cubic mean, what the flywheel does, loads.
   pure subroutine sizing_notes(variant, notes)
@@ -274,5 +294,13 @@ contains
         values(i)%error]))
     end do
   end subroutine put_rows
+
+  !> Names of parts and quantities.
+  subroutine plan_sizing(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%names = sizing_names(variant)
+  end subroutine plan_sizing
 
 end module sizing_report

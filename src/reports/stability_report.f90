@@ -2,6 +2,8 @@
 module stability_report
   use constants, only: two_pi
   use models, only: accuracy_of_study
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, speed_table_t
   use response_notes, only: damping_note, without_note
   use stability_types, only: exponent_t, stable, unstable_combination, unstable_flip, unstable_fold
   use table_columns, only: cells, name_list_t, table_layout_t
@@ -12,7 +14,7 @@ module stability_report
   implicit none (type, external)
   private
 
-  public :: stability_notes, stability_words, add_stability, verdict_word, is_short, lost_note
+  public :: describe_stability, stability_words, verdict_word, is_short, lost_note
 
   !> Why modes have no row.
   character(len=*), parameter :: lost_note = "modes without a row fade so fast beside the "// &
@@ -21,7 +23,25 @@ module stability_report
   !> Width of the column `verdict`: the longest word, and a blank.
   integer, parameter :: verdict_width = 16
 
+  !> `stability.dat`.
+  type, extends(speed_table_t) :: stability_table_t
+  contains
+    procedure, nopass :: find_notes => stability_notes
+    procedure, nopass :: add_speed => add_stability
+  end type stability_table_t
+
 contains
+
+  !> REPORT stability.
+  subroutine describe_stability(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="stability", help="whether vibrations of the running "// &
+      "linkage grow", pattern="REPORT stability [accuracy=]", default="accuracy=1e-6", &
+      studies="stability", response=.true.)
+    call add_table(report, stability_table_t(), "stability", "speed:speed mode:# turns,"// &
+      "growth:- frequency:Hz signature:# error:- verdict:name", words=stability_words())
+  end subroutine describe_stability
 
   !> Meaning of the columns, damping, accuracy.
   pure subroutine stability_notes(variant, notes)
@@ -61,11 +81,11 @@ contains
 
   !> The column `verdict`, with a word as long as the longest.
   pure function stability_words() result(list)
-    type(name_list_t) :: list
+    type(name_list_t) :: list(1)
 
-    list%column = "verdict"
-    allocate (list%names(1))
-    list%names(1)%text = repeat("x", verdict_width - 1)
+    list(1)%column = "verdict"
+    allocate (list(1)%names(1))
+    list(1)%names(1)%text = repeat("x", verdict_width - 1)
   end function stability_words
 
   !> Appends the rows of a speed, one per mode, or its failure.

@@ -2,6 +2,8 @@
 module strains_report
   use body_lines, only: place_words
   use kinds, only: wp
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, response_table_t, table_plan_t
   use response_notes, only: append_response_notes
   use table_columns, only: cells, column_width, name_list_t, table_layout_t, table_unit
   use table_rows, only: add_row, rows_t
@@ -11,9 +13,29 @@ module strains_report
   implicit none (type, external)
   private
 
-  public :: strains_notes, append_gauge_notes, gauge_names, add_strains
+  public :: describe_strains, plan_gauges, append_gauge_notes
+
+  !> `strains.dat`.
+  type, extends(response_table_t) :: strains_table_t
+  contains
+    procedure, nopass :: find_notes => strains_notes
+    procedure, nopass :: plan => plan_gauges
+    procedure, nopass :: add_position => add_strains
+  end type strains_table_t
 
 contains
+
+  !> REPORT strains.
+  subroutine describe_strains(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="strains", help="strains, forces and stresses at gauges", &
+      pattern="REPORT strains [accuracy=] [columns=]", default="accuracy=1e-6", &
+      studies="response", positions=.true., response=.true.)
+    call add_table(report, strains_table_t(), "strains", "speed:speed crank:deg gauge:name "// &
+      "axial_strain,bending_strain:- moment:moment axial_force,shear_force:force "// &
+      "stress:stress error:-")
+  end subroutine describe_strains
 
   !> Meaning of the columns, place of every gauge, and what all tables of the response say.
   pure subroutine strains_notes(variant, notes)
@@ -103,5 +125,13 @@ contains
       end do
     end associate
   end subroutine add_strains
+
+  !> A column `gauge`.
+  subroutine plan_gauges(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%names(1) = gauge_names(variant)
+  end subroutine plan_gauges
 
 end module strains_report

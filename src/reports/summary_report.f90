@@ -18,6 +18,9 @@ module summary_report
   use models, only: accuracy_of_study, drives_length, has_law, model_t, needs_frequencies, &
     needs_response, report_number
   use reactions_study, only: reaction_values, reactions_at_speed, shaking_values, torque_value
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, lay_out_columns, report_record_t, table_plan_t, &
+    whole_table_t
   use response_notes, only: has_response
   use summary_quantities, only: column_names, quantity_kinds, quantity_name, quantity_t
   use table_columns, only: add_quantity_column, cells, table_layout_t
@@ -28,7 +31,7 @@ module summary_report
   implicit none (type, external)
   private
 
-  public :: summary_notes, add_summary_columns, add_summary
+  public :: describe_summary
 
   !> A value at a position and speed.
   type :: value_t
@@ -46,7 +49,24 @@ module summary_report
     integer :: failed_at(2) = 0 !! the first place without it; 0: none
   end type range_t
 
+  !> `summary.dat`.
+  type, extends(whole_table_t) :: summary_table_t
+  contains
+    procedure, nopass :: find_notes => summary_notes
+    procedure, nopass :: lay_out => lay_out_summary
+    procedure, nopass :: add_all => add_summary
+  end type summary_table_t
+
 contains
+
+  !> REPORT summary.
+  subroutine describe_summary(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="summary", help="a row a variant: least, mean and "// &
+      "greatest values", pattern="REPORT summary of=f1,torque,... [accuracy=]", positions=.true.)
+    call add_table(report, summary_table_t(), "summary", "rows,failed:#", has_blocks=.false.)
+  end subroutine describe_summary
 
   !> What the columns mean, and of what the quantities are. They do not depend on results, which
   !! differ from variant to variant.
@@ -84,25 +104,26 @@ contains
   end subroutine summary_notes
 
   !> Appends the columns of the quantities to those that count rows.
-  pure subroutine add_summary_columns(model, layout)
-    type(model_t), intent(in) :: model            !! with REPORT summary
-    type(table_layout_t), intent(inout) :: layout !! of the table
+  subroutine lay_out_summary(model, plan)
+    type(model_t), intent(in) :: model        !! with REPORT summary
+    type(table_plan_t), intent(inout) :: plan !! of the table
 
     type(string_t), allocatable :: places(:), names(:)
     character(len=:), allocatable :: unit
     integer :: i, k
 
+    call lay_out_columns(model, plan)
     places = place_names(model)
     associate (summary => model%reports(report_number(model, "summary"))%summary)
       do i = 1, size(summary%quantities)
         names = column_names(summary%quantities(i), places)
         do k = 1, size(names)
           unit = unit_of(model, summary%quantities(i), names(k)%text)
-          call add_quantity_column(layout, names(k)%text, unit, model%outputs)
+          call add_quantity_column(plan%layout, names(k)%text, unit, model%outputs)
         end do
       end do
     end associate
-  end subroutine add_summary_columns
+  end subroutine lay_out_summary
 
   !> The columns that say where a row of a table of positions is.
   pure function place_names(model) result(names)

@@ -3,11 +3,15 @@ module transient_report
   use constants, only: degree
   use kinds, only: wp
   use models, only: has_law, model_t, report_number
+  use number_text, only: number_width
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, speed_table_t
   use response_notes, only: damping_note, without_note
+  use response_report, only: plan_response
   use response_types, only: axial_force, axial_strain, bending_strain, moment, stress
-  use strains_report, only: append_gauge_notes
+  use strains_report, only: append_gauge_notes, plan_gauges
   use table_columns, only: cells, column_width, table_factor, table_layout_t
-  use table_rows, only: add_failed_row, add_row, rows_t
+  use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
   use text, only: append_string, string_t, to_string
   use transient_types, only: speed_transient_t
@@ -16,11 +20,42 @@ module transient_report
   implicit none (type, external)
   private
 
-  public :: transient_notes, gauge_history_notes, add_transient, transient_log
+  public :: describe_transient, transient_log
 
   character(len=*), parameter :: line_feed = achar(10)
 
+  !> `transient.dat`.
+  type, extends(speed_table_t) :: transient_table_t
+  contains
+    procedure, nopass :: find_notes => transient_notes
+    procedure, nopass :: plan => plan_response
+    procedure, nopass :: add_speed => add_points
+  end type transient_table_t
+
+  !> `gauges.dat`.
+  type, extends(speed_table_t) :: gauges_table_t
+  contains
+    procedure, nopass :: find_notes => gauge_history_notes
+    procedure, nopass :: plan => plan_gauges
+    procedure, nopass :: add_speed => add_gauges
+  end type gauges_table_t
+
 contains
+
+  !> REPORT transient.
+  subroutine describe_transient(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="transient", help="the elastic motion in time from a state", &
+      pattern="REPORT transient turns= [crank=0] [start=rest|steady] [perturb=mode,"// &
+      "amplitude[,velocity]] [instants=] [accuracy=]", default="crank=0 start=rest "// &
+      "instants=72 accuracy=1e-3", studies="transient", response=.true.)
+    call add_table(report, transient_table_t(), "transient", "speed:speed time:time "// &
+      "crank:deg point:name ux,uy:length rotation:deg error:-")
+    call add_table(report, gauges_table_t(), "gauges", "speed:speed time:time crank:deg "// &
+      "gauge:name axial_strain,bending_strain:- moment:moment axial_force:force "// &
+      "stress:stress error:-")
+  end subroutine describe_transient
 
   !> Meaning of the columns of displacements, and what both tables say.
   pure subroutine transient_notes(variant, notes)
@@ -77,9 +112,8 @@ contains
     end associate
   end subroutine append_common_notes
 
-  !> Appends the rows of a speed, instant after instant, or its failure.
-  subroutine add_transient(table, variant, layout, speed, rows)
-    character(len=*), intent(in) :: table          !! transient or gauges
+  !> Appends the rows of pins and points, instant after instant, or a failure.
+  subroutine add_points(variant, layout, speed, rows)
     type(variant_results_t), intent(in) :: variant !! with its motions computed
     type(table_layout_t), intent(in) :: layout     !! of this table
     integer, intent(in) :: speed                   !! number in the deck's list
@@ -87,41 +121,68 @@ contains
 
     integer :: i, k
 
+    if (speed > 1) call add_gap(rows, 2)
     associate (found => variant%found%transient%at_speed(speed), mechanism => variant%mechanism)
       if (allocated(found%error)) then
         call add_failed_row(rows, failed_place(variant%model, found, speed), found%error%text)
         return
       end if
-      if (table /= "transient" .and. allocated(found%strain_fault)) then
+      do k = 1, size(found%time)
+        do i = 1, size(mechanism%response_points)
+          associate (u => found%displacement(:, i, k), name => mechanism%response_points(i)%name)
+            call add_row(rows, start_of_row(variant, layout, speed, k, name)//cells(layout, 5, &
+              [u(1), u(2), u(3)/degree, found%displacement_error(i)]))
+          end associate
+        end do
+      end do
+    end associate
+  end subroutine add_points
+
+  !> Appends the rows of gauges, likewise.
+  subroutine add_gauges(variant, layout, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with its motions computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: speed                   !! number in the deck's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    integer :: i, k
+
+    if (speed > 1) call add_gap(rows, 2)
+    associate (found => variant%found%transient%at_speed(speed), mechanism => variant%mechanism)
+      if (allocated(found%error)) then
+        call add_failed_row(rows, failed_place(variant%model, found, speed), found%error%text)
+        return
+      end if
+      if (allocated(found%strain_fault)) then
         call add_failed_row(rows, failed_place(variant%model, found, speed), &
           found%strain_fault%text)
         return
       end if
       do k = 1, size(found%time)
-        if (table == "transient") then
-          do i = 1, size(mechanism%response_points)
-            associate (u => found%displacement(:, i, k), &
-                name => mechanism%response_points(i)%name)
-              call add_row(rows, cells(layout, 1, [shown_rate(variant%model, &
-                found, speed, k), found%time(k), found%crank(k)])//name_cell(name, &
-                column_width(layout, 4))// &
-                cells(layout, 5, [u(1), u(2), u(3)/degree, found%displacement_error(i)]))
-            end associate
-          end do
-        else
-          do i = 1, size(mechanism%gauges)
-            associate (values => found%strain(:, i, k), name => mechanism%gauges(i)%name)
-              call add_row(rows, cells(layout, 1, [shown_rate(variant%model, &
-                found, speed, k), found%time(k), found%crank(k)])//name_cell(name, &
-                column_width(layout, 4))// &
-                cells(layout, 5, [values([axial_strain, bending_strain, moment, axial_force, &
-                stress]), found%strain_error(i)]))
-            end associate
-          end do
-        end if
+        do i = 1, size(mechanism%gauges)
+          associate (values => found%strain(:, i, k), name => mechanism%gauges(i)%name)
+            call add_row(rows, start_of_row(variant, layout, speed, k, name)//cells(layout, 5, &
+              [values([axial_strain, bending_strain, moment, axial_force, stress]), &
+              found%strain_error(i)]))
+          end associate
+        end do
       end do
     end associate
-  end subroutine add_transient
+  end subroutine add_gauges
+
+  !> The cells of an instant, and of a name.
+  function start_of_row(variant, layout, speed, k, name) result(text)
+    type(variant_results_t), intent(in) :: variant
+    type(table_layout_t), intent(in) :: layout
+    integer, intent(in) :: speed, k !! numbers of speed and instant
+    character(len=*), intent(in) :: name
+    character(len=3*number_width + column_width(layout, 4)) :: text
+
+    associate (found => variant%found%transient%at_speed(speed))
+      text = cells(layout, 1, [shown_rate(variant%model, found, speed, k), found%time(k), &
+        found%crank(k)])//name_cell(name, column_width(layout, 4))
+    end associate
+  end function start_of_row
 
   !> The speed of the deck, of a law that at an instant, as tables show it.
   pure function shown_rate(model, found, speed, k) result(shown)

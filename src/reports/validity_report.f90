@@ -3,7 +3,9 @@ module validity_report
   use kinds, only: wp
   use mechanisms, only: way_length
   use number_text, only: number_width
-  use response_notes, only: append_response_notes
+  use report_kinds, only: report_kind_t
+  use report_types, only: add_table, report_record_t, speed_table_t
+  use response_notes, only: add_failed_speed, append_response_notes, has_response
   use response_types, only: speed_response_t
   use sections, only: outer_distance
   use table_columns, only: cells, column_width, table_layout_t
@@ -14,9 +16,27 @@ module validity_report
   implicit none (type, external)
   private
 
-  public :: validity_notes, add_validity
+  public :: describe_validity
+
+  !> `validity.dat`.
+  type, extends(speed_table_t) :: validity_table_t
+  contains
+    procedure, nopass :: find_notes => validity_notes
+    procedure, nopass :: add_speed => add_validity
+  end type validity_table_t
 
 contains
+
+  !> REPORT validity.
+  subroutine describe_validity(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="validity", help="whether the equations of the response "// &
+      "hold", pattern="REPORT validity [accuracy=]", default="accuracy=1e-6", studies="response", &
+      response=.true.)
+    call add_table(report, validity_table_t(), "validity", "speed:speed link:name deflection,"// &
+      "load,quadratic:- out_of_plane:Hz distance,error:-")
+  end subroutine describe_validity
 
   !> Meaning of the columns, and what all tables of the response say.
   pure subroutine validity_notes(variant, notes)
@@ -40,13 +60,17 @@ contains
 
   !> Appends the rows of a speed, one per link that bends.
   subroutine add_validity(variant, layout, speed, rows)
-    type(variant_results_t), intent(in) :: variant !! with a response at this speed
+    type(variant_results_t), intent(in) :: variant !! with its response computed
     type(table_layout_t), intent(in) :: layout     !! of this table
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     integer :: b
 
+    if (.not. has_response(variant, speed)) then
+      call add_failed_speed(variant, speed, rows)
+      return
+    end if
     associate (found => variant%found%response%at_speed(speed), mechanism => variant%mechanism)
       do b = 1, size(mechanism%names)
         associate (body => mechanism%linkage%bodies(b))

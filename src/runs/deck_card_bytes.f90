@@ -52,7 +52,7 @@ contains
     call get_string(bytes, at, text)
     call get_cards(bytes, at, cards)
     source = source_from_text(path, text)
-    call read_deck_cards(cards, settings, source, reports, none, deck_cards)
+    call read_deck_cards(cards, settings, source, reports(), none, deck_cards)
   end subroutine get_deck_cards
 
 end module deck_card_bytes

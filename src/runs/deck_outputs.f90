@@ -4,13 +4,13 @@ module deck_outputs
   use errors, only: error_t
   use file_system, only: joined_path
   use kinds, only: long, wp
-  use models, only: model_t, report_number
+  use models, only: model_t
   use output_files, only: append_output, close_output, finish_output, open_output, output_file_t
   use output_folders, only: begin_files, discard_folder, echo_name, leave_folder, log_name, &
     open_folder, output_folder_t, put_in_place, refuse_names, summary_name
-  use report_kinds, only: table_kind_t
   use report_rows, only: find_rows
-  use report_table, only: plan_table, reports, table_in_units, table_notes, table_plan_t
+  use report_table, only: tables_of
+  use report_types, only: any_table_t, plan_table, table_plan_t
   use table_columns, only: header_columns
   use table_rows, only: add_failed_row, rows_t
   use tables, only: begin_variant, close_table, column_t, finish_table, open_table, table_file_t, &
@@ -23,7 +23,7 @@ module deck_outputs
   implicit none (type, external)
   private
 
-  public :: outputs_t, open_outputs, open_part, tables_of, write_variant, write_found_rows, &
+  public :: outputs_t, open_outputs, open_part, write_variant, write_found_rows, &
     write_texts, publish_outputs, close_outputs, discard_outputs, forget_waiting
 
   !> The files of one output folder.
@@ -31,8 +31,7 @@ module deck_outputs
     type(output_folder_t) :: folder
     logical, private :: csv = .false.                     !! tables as comma-separated values too
     logical, private :: plain = .true.                    !! tables as plain text
-    type(table_kind_t), allocatable :: kinds(:)           !! (tables) names and columns, from the
-                                                          !! table of reports
+    type(any_table_t), allocatable :: kinds(:)            !! (tables) of the reports of the deck
     type(table_file_t), allocatable :: tables(:)          !! in the order of `kinds`
     type(column_t), allocatable, private :: parameters(:) !! columns of the VARY parameters
     logical :: have_heads = .false.                       !! the tables; the first variant that is
@@ -68,10 +67,10 @@ contains
     outputs%csv = csv
     if (present(csv_only)) outputs%plain = .not. (csv .and. csv_only)
     outputs%parameters = parameters
-    outputs%kinds = tables_of(model)
+    call tables_of(model, outputs%kinds)
     do i = 1, size(outputs%kinds)
-      if (outputs%plain) call append_string(names, trim(outputs%kinds(i)%name)//".dat")
-      if (csv) call append_string(names, trim(outputs%kinds(i)%name)//".csv")
+      if (outputs%plain) call append_string(names, trim(outputs%kinds(i)%table%name)//".dat")
+      if (csv) call append_string(names, trim(outputs%kinds(i)%table%name)//".csv")
     end do
     call append_string(names, echo_name)
     call append_string(names, log_name)
@@ -85,10 +84,10 @@ contains
     allocate (outputs%tables(size(outputs%kinds)))
     associate (own => outputs%folder%own)
       do i = 1, size(outputs%kinds)
-        call open_table(own, trim(outputs%kinds(i)%name), csv, outputs%tables(i), error, &
+        call open_table(own, trim(outputs%kinds(i)%table%name), csv, outputs%tables(i), error, &
           .not. outputs%plain)
         if (allocated(error)) return
-        outputs%tables(i)%has_blocks = outputs%kinds(i)%has_blocks
+        outputs%tables(i)%has_blocks = outputs%kinds(i)%table%has_blocks
       end do
       call open_output(joined_path(own, echo_name), outputs%echo, error)
       if (.not. allocated(error)) call open_output(joined_path(own, log_name), outputs%log, error)
@@ -115,27 +114,6 @@ contains
       error)
   end subroutine open_part
 
-  !> The tables that a model requests: the first table of every report, in the order of all
-  !! reports, then the second ones.
-  pure function tables_of(model) result(list)
-    type(model_t), intent(in) :: model !! of the first variant
-    type(table_kind_t), allocatable :: list(:)
-
-    integer :: i, t, number
-
-    allocate (list(0))
-    do t = 1, size(reports(1)%tables)
-      do i = 1, size(reports)
-        number = report_number(model, reports(i)%name)
-        if (number == 0) cycle
-        associate (kind => model%reports(number)%kind)
-          if (kind%tables(t)%name == "" .or. kind%linkages /= reports(i)%linkages) cycle
-          list = [list, table_in_units(kind%tables(t), model)]
-        end associate
-      end do
-    end do
-  end function tables_of
-
   !> Writes the rows of a variant to all tables, a number of items at a time.
   subroutine write_variant(outputs, variant, threads)
     type(outputs_t), intent(inout) :: outputs      !! opened
@@ -150,8 +128,8 @@ contains
 
     before = rows_written(outputs)
     do i = 1, size(outputs%kinds)
-      call plan_table(outputs%kinds(i), variant, plan)
-      call table_notes(plan%name, variant, notes)
+      call plan_table(outputs%kinds(i)%table, variant, plan)
+      call plan%table%find_notes(variant, notes)
       associate (table => outputs%tables(i))
         call header_columns(plan%layout, columns)
         call begin_rows(outputs, table, variant%model%title, notes, columns, variant%model%varied)

@@ -77,10 +77,10 @@ contains
     call read_all_cards(deck%source, cards, deck%diagnostics)
     call add_table_files(deck%source, cards, deck%diagnostics)
     if (present(settings)) then
-      call read_deck_cards(cards, settings, deck%source, reports, deck%diagnostics, &
+      call read_deck_cards(cards, settings, deck%source, reports(), deck%diagnostics, &
         deck%cards)
     else
-      call read_deck_cards(cards, none, deck%source, reports, deck%diagnostics, deck%cards)
+      call read_deck_cards(cards, none, deck%source, reports(), deck%diagnostics, deck%cards)
     end if
     available = find_available_memory(threads, processes)
     if (present(computes)) then
@@ -95,7 +95,7 @@ contains
       deck%verdict%threads = threads
       deck%verdict%available = available
       if (.not. has_errors(deck%diagnostics)) deck%model%echo = echo_cards(deck%cards, cards, &
-        deck%model%effects, reports, deck%source)
+        deck%model%effects, reports(), deck%source)
     end if
     deck%errors = render_errors(deck%diagnostics, deck%source)
     deck%warnings = render_warnings(deck%diagnostics, deck%source)
@@ -116,7 +116,7 @@ contains
       deck%verdict, part)
     if (has_errors(deck%diagnostics) .or. was_interrupted()) return
     call read_variant(deck%cards, deck%verdict%leading, cards, none, deck%model)
-    deck%model%echo = echo_cards(deck%cards, cards, deck%model%effects, reports, deck%source)
+    deck%model%echo = echo_cards(deck%cards, cards, deck%model%effects, reports(), deck%source)
   end subroutine read_variants
 
 end module deck_readings

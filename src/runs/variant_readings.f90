@@ -29,7 +29,7 @@ contains
                                                          !! return
 
     call take_variant(deck_cards, number, cards)
-    call read_model(cards, reports, diagnostics, model)
+    call read_model(cards, reports(), diagnostics, model)
     if (has_errors(diagnostics)) return
     model%variant = variant_text(deck_cards, number)
     model%varied = variant_values(deck_cards, number)

@@ -5,9 +5,8 @@ module variant_rows
     put_logicals, put_reals, put_string
   use errors, only: error_t
   use kinds, only: wp
-  use report_kinds, only: table_kind_t
   use report_rows, only: find_rows
-  use report_table, only: plan_table, table_notes, table_plan_t
+  use report_types, only: any_table_t, plan_table, table_plan_t
   use result_failures, only: find_failures
   use result_warnings, only: find_warnings
   use run_findings, only: add_failure, failure_t, findings_t, get_findings, of_variant, &
@@ -52,7 +51,7 @@ contains
   !> Rows, findings and totals of a computed variant. Several threads may call it at the same time,
   !! for different variants.
   subroutine find_variant_rows(tables, variant, threads, leads, rows)
-    type(table_kind_t), intent(in) :: tables(:)    !! of the deck
+    type(any_table_t), intent(in) :: tables(:)     !! of the deck
     type(variant_results_t), intent(in) :: variant !! computed
     integer, intent(in) :: threads                 !! number to use
     logical, intent(in) :: leads                   !! whether heads of tables and log are to be its
@@ -70,8 +69,8 @@ contains
     call find_failures(variant, rows%findings)
     call find_warnings(variant, rows%findings)
     do i = 1, size(tables)
-      call plan_table(tables(i), variant, plans(i))
-      call table_notes(plans(i)%name, variant, rows%tables(i)%notes)
+      call plan_table(tables(i)%table, variant, plans(i))
+      call tables(i)%table%find_notes(variant, rows%tables(i)%notes)
       if (leads) call header_columns(plans(i)%layout, rows%tables(i)%columns)
     end do
     if (leads) then

@@ -26,7 +26,7 @@ module variant_runs
   use progress, only: progress_t, show_progress
   use rank_tasks, only: help_with_tasks
   use reach_texts, only: open_linkage_text, reach_words
-  use report_table, only: find_study, study_names
+  use report_studies, only: find_study, study_names
   use response_study, only: find_response
   use stability_study, only: find_intervals_of, find_stability_of
   use structures, only: holds_at_change_points

@@ -4,7 +4,7 @@ module variant_tasks
   use byte_streams, only: get_integers, put_integers, put_string
   use cards, only: card_t
   use deck_bytes, only: get_deck, put_deck
-  use deck_outputs, only: forget_waiting, outputs_t, tables_of, write_found_rows
+  use deck_outputs, only: forget_waiting, outputs_t, write_found_rows
   use deck_readings, only: deck_t
   use diagnostics, only: diagnostics_t
   use errors, only: error_of_numerics, error_t, set_error
@@ -17,7 +17,8 @@ module variant_tasks
   use progress, only: progress_t, show_progress
   use rank_tasks, only: help_with_tasks
   use ranks, only: rank_count
-  use report_kinds, only: table_kind_t
+  use report_table, only: tables_of
+  use report_types, only: any_table_t
   use run_findings, only: add_findings, findings_t
   use run_totals, only: add_totals, run_totals_t
   use study_parts, only: first_variant, last_variant, part_t
@@ -58,7 +59,7 @@ module variant_tasks
     integer :: logged = 0                                   !! its number,
     integer :: method = 0                                   !! by which its frequencies were found
     integer, private :: threads = 1                         !! that compute a variant together
-    type(table_kind_t), allocatable, private :: kinds(:)    !! (tables) of the deck
+    type(any_table_t), allocatable, private :: kinds(:)    !! (tables) of the deck
     type(variant_rows_t), allocatable, private :: rows(:)   !! (0: ring − 1) not yet written
     type(thread_store_t), allocatable, private :: stores(:) !! (threads)
     integer, private :: headless = 0                        !! number of the variant that leads
@@ -149,7 +150,7 @@ contains
     integer, intent(in) :: threads            !! that compute one together
 
     job%threads = threads
-    job%kinds = tables_of(job%deck%model)
+    call tables_of(job%deck%model, job%kinds)
     ! One thread more may serve other ranks.
     allocate (job%stores(at_a_time + 1), job%rows(0:room - 1))
   end subroutine begin_variant_job

@@ -8,9 +8,9 @@ module computed_decks
   use file_system, only: remove_file
   use link_store, only: link_store_t
   use models, only: model_t
-  use report_kinds, only: any_linkage, four_bars, other_linkages, table_kind_t
   use report_rows, only: find_rows
-  use report_table, only: plan_table, reports, table_in_units, table_notes, table_plan_t
+  use report_table, only: reports, tables_of
+  use report_types, only: any_table_t, plan_table, table_plan_t
   use table_columns, only: header_columns
   use table_rows, only: rows_t
   use tables, only: column_t, finish_table, open_table, table_file_t, write_header, write_rows
@@ -22,7 +22,7 @@ module computed_decks
   implicit none (type, external)
   private
 
-  public :: read_text, compute_text, compute_model, table_named, rows_of_table, table_text, &
+  public :: read_text, compute_text, compute_model, plan_of_table, rows_of_table, table_text, &
     row_lines, count_of
 
   !> The file that a table is written to and read from again.
@@ -50,7 +50,7 @@ contains
     if (present(variant)) number = variant
     source = source_from_text("x.deck", text)
     call read_cards(source, cards, diagnostics)
-    call read_deck_cards(cards, no_settings, source, reports, diagnostics, deck_cards)
+    call read_deck_cards(cards, no_settings, source, reports(), diagnostics, deck_cards)
     if (.not. has_errors(diagnostics)) call read_variant(deck_cards, number, cards, diagnostics, &
       model)
     complaint = render_errors(diagnostics, source)
@@ -92,33 +92,20 @@ contains
     found = run%results
   end subroutine compute_model
 
-  !> A table as the table of reports lists it, of a four-bar if nothing else is said; without a name
-  !! if there is none of this name.
-  pure function table_named(name, of_others) result(table)
-    character(len=*), intent(in) :: name
-    logical, intent(in), optional :: of_others !! of linkages that are no four-bars
-    type(table_kind_t) :: table
-
-    integer :: i, t, linkages
-
-    linkages = four_bars
-    if (present(of_others)) linkages = merge(other_linkages, four_bars, of_others)
-    do i = 1, size(reports)
-      if (all(reports(i)%linkages /= [any_linkage, linkages])) cycle
-      do t = 1, size(reports(i)%tables)
-        if (reports(i)%tables(t)%name == name) table = reports(i)%tables(t)
-      end do
-    end do
-  end function table_named
-
-  !> A table whose report the deck asks for, for its linkage and in its units.
-  pure function table_of(found, name) result(table)
+  !> Columns and items of a table whose report the deck asks for; without a table if there is none.
+  subroutine plan_of_table(found, name, plan)
     type(variant_results_t), intent(in) :: found
     character(len=*), intent(in) :: name
-    type(table_kind_t) :: table
+    type(table_plan_t), intent(out) :: plan
 
-    table = table_in_units(table_named(name, .not. found%mechanism%is_four_bar), found%model)
-  end function table_of
+    type(any_table_t), allocatable :: tables(:)
+    integer :: i
+
+    call tables_of(found%model, tables)
+    do i = 1, size(tables)
+      if (tables(i)%table%name == name) call plan_table(tables(i)%table, found, plan)
+    end do
+  end subroutine plan_of_table
 
   !> All rows of a table whose report the deck asks for.
   subroutine rows_of_table(found, name, threads, rows)
@@ -129,7 +116,7 @@ contains
 
     type(table_plan_t) :: plan
 
-    call plan_table(table_of(found, name), found, plan)
+    call plan_of_table(found, name, plan)
     call find_rows(plan, found, 1, plan%items, threads, rows)
   end subroutine rows_of_table
 
@@ -148,8 +135,8 @@ contains
     integer :: unit, length
 
     text = ""
-    call plan_table(table_of(found, name), found, plan)
-    call table_notes(plan%name, found, notes)
+    call plan_of_table(found, name, plan)
+    call plan%table%find_notes(found, notes)
     call rows_of_table(found, name, 1, rows)
     call open_table(".", scratch, .false., table, error)
     if (allocated(error)) return

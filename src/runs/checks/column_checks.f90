@@ -3,7 +3,8 @@ module column_checks
   use diagnostics, only: add_error, diagnostics_t
   use models, only: model_t
   use report_kinds, only: column_kind_t, columns_of
-  use report_table, only: table_in_units
+  use report_table, only: tables_of_report
+  use report_types, only: any_table_t
   use spelling, only: suggestion
   use text, only: append_string, has_word, joined, string_t, to_string
   implicit none (type, external)
@@ -18,6 +19,7 @@ contains
     type(model_t), intent(in) :: model                !! without errors so far
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
 
+    type(any_table_t), allocatable :: tables(:)
     type(column_kind_t), allocatable :: columns(:)
     type(string_t), allocatable :: names(:), shown(:)
     integer :: i, k
@@ -25,7 +27,8 @@ contains
     do i = 1, size(model%reports)
       associate (report => model%reports(i))
         if (.not. allocated(report%columns)) cycle
-        call columns_of(table_in_units(report%kind%tables(1), model), columns)
+        call tables_of_report(report%kind, model, tables)
+        call columns_of(tables(1)%table%table_kind_t, columns)
         call list_names(columns, model%modes, names, shown)
         do k = 1, size(report%columns)
           associate (word => report%columns(k))

@@ -15,7 +15,7 @@ module card_help
 contains
 
   !> Two lines per card: its pattern and its purpose.
-  pure function card_help_text() result(text)
+  function card_help_text() result(text)
     character(len=:), allocatable :: text
 
     type(text_buffer_t) :: buffer
@@ -34,18 +34,20 @@ contains
   end function card_help_text
 
   !> Every card and report: how it is written, and what it is for.
-  pure subroutine find_card_entries(patterns, helps)
+  subroutine find_card_entries(patterns, helps)
     type(string_t), allocatable, intent(out) :: patterns(:), helps(:) !! as many of either
 
+    type(report_kind_t), allocatable :: kinds(:)
     integer :: i
 
     do i = 1, size(card_kinds)
       call append_string(patterns, trim(card_kinds(i)%pattern))
       call append_string(helps, help_of_card(card_kinds(i)))
     end do
-    do i = 1, size(reports)
-      call append_string(patterns, pattern_of_report(reports(i)))
-      call append_string(helps, help_of_report(reports(i)))
+    kinds = reports()
+    do i = 1, size(kinds)
+      call append_string(patterns, pattern_of_report(kinds(i)))
+      call append_string(helps, help_of_report(kinds(i)))
     end do
     call append_string(patterns, "END")
     call append_string(helps, "nothing may follow; optional")
