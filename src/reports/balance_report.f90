@@ -4,7 +4,8 @@ module balance_report
   use balance_study, only: has_balanced, obstacle_link, obstacle_none, obstacle_pin, obstacle_ram
   use counterweight_notes, only: append_counterweight, append_partial_notes, balanced_by_cards
   use drive_motions, only: drive_rates
-  use harmonics_study, only: has_settled, highest_harmonic, is_moment, quantity_count, quantity_names
+  use harmonics_study, only: has_settled, highest_harmonic, is_moment, quantity_count, &
+    quantity_names
   use joint_study, only: joints_result_t
   use joints_report, only: drives_notes
   use kinds, only: wp

@@ -109,8 +109,8 @@ contains
     type(name_list_t) :: list(1)
 
     list(1)%column = "verdict"
-    list(1)%names = word_list("holds runs_forward runs_backward runs locks_forward locks_backward "// &
-      "locks")
+    list(1)%names = word_list("holds runs_forward runs_backward runs locks_forward "// &
+      "locks_backward locks")
   end function holding_words
 
   !> Appends the rows of a position and speed, one per joint that rubs.

@@ -20,7 +20,7 @@ module joints_report
   implicit none (type, external)
   private
 
-  public :: describe_joints, describe_drives, plan_joints, joint_owners, owner_cell, &
+  public :: describe_joints, describe_drives, drive_columns, plan_joints, joint_owners, owner_cell, &
     drives_notes, reference_words, open_words, add_open_row, friction_note
 
   !> Where friction is in the columns, of a linkage with FRICTION cards.

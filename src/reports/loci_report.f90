@@ -19,7 +19,7 @@ module loci_report
   implicit none (type, external)
   private
 
-  public :: describe_branches
+  public :: describe_branches, locus_words
 
   !> Width of the column `event`: the longest word, and a blank.
   integer, parameter :: event_width = 18

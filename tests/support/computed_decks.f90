@@ -22,7 +22,7 @@ module computed_decks
   implicit none (type, external)
   private
 
-  public :: read_text, compute_text, compute_model, plan_of_table, rows_of_table, table_text, &
+  public :: read_text, compute_text, compute_model, plan_of_table, notes_of_table, rows_of_table, table_text, &
     row_lines, count_of
 
   !> The file that a table is written to and read from again.
@@ -107,6 +107,18 @@ contains
     end do
   end subroutine plan_of_table
 
+  !> The remarks at the head of a table whose report the deck asks for.
+  subroutine notes_of_table(found, name, notes)
+    type(variant_results_t), intent(in) :: found
+    character(len=*), intent(in) :: name
+    type(string_t), allocatable, intent(out) :: notes(:)
+
+    type(table_plan_t) :: plan
+
+    call plan_of_table(found, name, plan)
+    call plan%table%find_notes(found, notes)
+  end subroutine notes_of_table
+
   !> All rows of a table whose report the deck asks for.
   subroutine rows_of_table(found, name, threads, rows)
     type(variant_results_t), intent(in) :: found
@@ -136,7 +148,7 @@ contains
 
     text = ""
     call plan_of_table(found, name, plan)
-    call plan%table%find_notes(found, notes)
+    call notes_of_table(found, name, notes)
     call rows_of_table(found, name, 1, rows)
     call open_table(".", scratch, .false., table, error)
     if (allocated(error)) return
