@@ -18,6 +18,7 @@ module warnings
 
   !> Warnings of several variants that are of one kind and grade are joined into one.
   type :: warning_t
+    character(len=12) :: study = ""          !! that warns of its results; of a deck blank
     integer :: kind = 0                      !! what it is about, numbered by those who warn
     integer :: grade = grade_doubt           !! grade_doubt or grade_meaningless
     real(wp) :: amount = 0.0_wp              !! the larger, the worse among those of the same kind
@@ -80,6 +81,7 @@ contains
     type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_warning`
     type(warning_t), intent(in) :: warning       !! with its text and variant
 
+    call put_string(buffer, trim(warning%study))
     call put_integers(buffer, [warning%kind, warning%grade, warning%variants])
     call put_logicals(buffer, [warning%is_alike, warning%has_worst])
     call put_reals(buffer, [warning%amount])
@@ -96,7 +98,10 @@ contains
     real(wp) :: amount(1)
     integer :: codes(3)
     logical :: marks(2)
+    character(len=:), allocatable :: study
 
+    call get_string(bytes, at, study)
+    warning%study = study
     call get_integers(bytes, at, codes)
     call get_logicals(bytes, at, marks)
     call get_reals(bytes, at, amount)

@@ -20,8 +20,8 @@ module joints_report
   implicit none (type, external)
   private
 
-  public :: describe_joints, describe_drives, drive_columns, plan_joints, joint_owners, owner_cell, &
-    drives_notes, reference_words, open_words, add_open_row, friction_note
+  public :: describe_joints, describe_drives, drive_columns, plan_joints, joint_owners, &
+    owner_cell, drives_notes, reference_words, open_words, add_open_row, friction_note
 
   !> Where friction is in the columns, of a linkage with FRICTION cards.
   character(len=*), parameter :: friction_note = "friction: within fx and fy of a block along "// &

@@ -21,25 +21,24 @@ module deck_runs
   use program_version, only: version_number
   use progress, only: end_progress, progress_t, show_progress, start_progress
   use ranks, only: rank_count
-  use result_failures, only: find_failures
-  use result_warnings, only: find_warnings
   use run_findings, only: add_findings, findings_t, warnings_of_grade
   use run_statistics, only: accuracy_summary, run_times_t, statistics_text
-  use run_totals, only: add_totals, run_totals_t, totals_of
+  use run_totals, only: add_totals, run_totals_t
   use stopwatch, only: lap, start_stopwatch, stopwatch_t
   use study_parts, only: first_variant, last_variant, part_name, part_t
-  use study_requests, only: motion_instants_of
+  use study_of_motion, only: motion_instants_of
   use success_text, only: text_of_success
   use tables, only: column_t, real_column
   use task_journal, only: close_journal, journal_t, keeps_tasks, open_journal, &
     publish_journal, remove_journal
   use text, only: append_string, plural, string_t, to_string
   use text_buffer, only: text_buffer_t
+  use variant_findings, only: find_failures, find_warnings, totals_of
   use variant_log, only: log_of_variant
   use variant_checks, only: is_refused
   use variant_readings, only: read_variant, refusal_of_variant
   use variant_rows, only: fail_variant, variant_rows_t
-  use variant_runs, only: begin_variant_run, compute_variant, help_with_sweep, variant_run_t
+  use variant_runs, only: begin_variant_run, compute_variant, help_with_variant, variant_run_t
   use variant_tasks, only: group_of_variants, run_variant_tasks, variant_job_t
   use variants, only: parameter_names, variant_count, variant_text, variant_values
   use warnings, only: grade_meaningless
@@ -454,7 +453,7 @@ contains
     call get_integers(bytes, at, number)
     call read_variant(deck%cards, number(1), cards, none, model)
     call begin_variant_run(run, model)
-    call help_with_sweep(run, threads)
+    call help_with_variant(run, threads)
   end subroutine help_with_blocks
 
   !> Writes the texts beside the tables, and puts all files in place. Errors: the run was

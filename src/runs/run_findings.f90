@@ -1,40 +1,28 @@
 !> What a run reports besides its tables: failed rows and warnings about results.
 module run_findings
-  use byte_streams, only: get_error, get_integers, get_reals, get_string, put_error, &
-    put_integers, put_reals, put_string
+  use byte_streams, only: get_error, get_integers, get_logicals, get_reals, get_string, put_error, &
+    put_integers, put_logicals, put_reals, put_string
   use errors, only: error_t
   use kinds, only: long, wp
-  use text, only: append_string, string_t, to_string
+  use text, only: append_string, string_t
   use text_buffer, only: text_buffer_t
   use warnings, only: counted_text, get_warning, join_warning, put_warning, warning_t
   implicit none (type, external)
   private
 
   public :: findings_t, failure_t, add_failure, add_warning_of_run, add_findings, put_findings, &
-    get_findings, warnings_of_grade, place_of_failure, untold_failures, most_failures
-  public :: at_position, at_frequencies, in_motion, of_variant, in_response, in_stability, &
-    in_intervals, in_transient, in_campbell, at_instant, at_forces
+    get_findings, warnings_of_grade, untold_failures, most_failures
 
-  !> Stages at which rows fail: no pose at a crank angle, hence no row at any speed; no frequencies
-  !! at a crank angle and speed; a motion that ended too soon; a variant that has no pose at any
-  !! crank angle; no elastic response, and no exponents, at a speed; no pose at an instant of a law;
-  !! no forces at a crank angle and speed.
-  integer, parameter :: at_position = 1, at_frequencies = 2, in_motion = 3, of_variant = 4, &
-    in_response = 5, in_stability = 6, in_transient = 7, in_intervals = 8, in_campbell = 9, &
-    at_instant = 10, at_forces = 11
-
-  !> A position, or an instant of a motion, without a result.
+  !> A position, a speed, an instant or a variant without a result.
   type :: failure_t
-    integer :: stage = at_position           !! one of the stages above
+    character(len=12) :: stage = "position"  !! `position`: no pose, hence no row at any speed;
+                                             !! `forces`; `variant`: nothing; or a study
     integer :: position = 0                  !! number of a position in the deck's list; 0: of none
-    real(wp) :: crank = 0.0_wp               !! of a position or motion [deg], of a slider or a ram
-                                             !! [m]
-    character(len=:), allocatable :: crank_words !! the same of a slider or a ram, in the unit of
-                                             !! results: `180 mm`; else empty
-    real(wp) :: speed = 0.0_wp               !! of frequencies or a response [rad/s]
-    character(len=:), allocatable :: speed_words !! the same in the unit of results: `300 rpm`
-    real(wp) :: time = 0.0_wp                !! at which a motion ended, or of an
-                                             !! instant [s]
+    real(wp), allocatable :: crank           !! [deg], of a slider or a ram [m]
+    real(wp), allocatable :: speed           !! of the first drive [rad/s] or [m/s]
+    real(wp), allocatable :: time            !! at which a motion ended, or of an instant [s]
+    character(len=:), allocatable :: crank_words !! in the unit of results: `45 deg`; with a crank
+    character(len=:), allocatable :: speed_words !! likewise: `speed 300 rpm`; with a speed
     type(error_t), allocatable :: error      !! the reason
     character(len=:), allocatable :: variant !! `L=90mm`; empty for a deck without VARY
     real(wp), allocatable :: varied(:)       !! (parameters) values, in the units of their VARY
@@ -136,8 +124,10 @@ contains
     integer :: number
 
     do number = 1, findings%warning_count
-      if (findings%warnings(number)%kind == warning%kind .and. &
-        findings%warnings(number)%grade == warning%grade) return
+      associate (known => findings%warnings(number))
+        if (known%study == warning%study .and. known%kind == warning%kind .and. &
+          known%grade == warning%grade) return
+      end associate
     end do
     number = 0
   end function same_warning
@@ -157,16 +147,6 @@ contains
     end do
   end function warnings_of_grade
 
-  !> `crank 45 deg`, or `crank 180 mm` of a slider or a ram.
-  pure function place_of_failure(failure) result(place)
-    type(failure_t), intent(in) :: failure !! at a position
-    character(len=:), allocatable :: place
-
-    place = "crank "//to_string(failure%crank, 12)//" deg"
-    if (.not. allocated(failure%crank_words)) return
-    if (len(failure%crank_words) > 0) place = "crank "//failure%crank_words
-  end function place_of_failure
-
   !> Appends findings to a buffer as bytes.
   pure subroutine put_findings(buffer, findings)
     type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_findings`
@@ -178,16 +158,22 @@ contains
     call put_integers(buffer, [int(findings%failures), findings%kept, findings%warning_count])
     do i = 1, findings%kept
       associate (failure => findings%failed(i))
-        call put_integers(buffer, [failure%stage, failure%position, size(failure%varied)])
-        call put_reals(buffer, [failure%crank, failure%speed, failure%time, failure%varied])
+        call put_string(buffer, trim(failure%stage))
+        call put_integers(buffer, [failure%position, size(failure%varied)])
+        call put_reals(buffer, failure%varied)
         call put_error(buffer, failure%error)
         call put_string(buffer, failure%variant)
-        call put_string(buffer, failure%speed_words)
-        if (allocated(failure%crank_words)) then
+        call put_logicals(buffer, [allocated(failure%crank), allocated(failure%speed), &
+          allocated(failure%time)])
+        if (allocated(failure%crank)) then
+          call put_reals(buffer, [failure%crank])
           call put_string(buffer, failure%crank_words)
-        else
-          call put_string(buffer, "")
         end if
+        if (allocated(failure%speed)) then
+          call put_reals(buffer, [failure%speed])
+          call put_string(buffer, failure%speed_words)
+        end if
+        if (allocated(failure%time)) call put_reals(buffer, [failure%time])
       end associate
     end do
     do i = 1, findings%warning_count
@@ -224,22 +210,34 @@ contains
     integer, intent(inout) :: at
     type(failure_t), intent(inout) :: failure
 
-    real(wp) :: numbers(3)
-    integer :: codes(3)
+    character(len=:), allocatable :: stage
+    real(wp) :: number(1)
+    integer :: codes(2)
+    logical :: has(3)
 
+    call get_string(bytes, at, stage)
+    failure%stage = stage
     call get_integers(bytes, at, codes)
-    call get_reals(bytes, at, numbers)
-    failure%stage = codes(1)
-    failure%position = codes(2)
-    failure%crank = numbers(1)
-    failure%speed = numbers(2)
-    failure%time = numbers(3)
-    allocate (failure%varied(codes(3)))
+    failure%position = codes(1)
+    allocate (failure%varied(codes(2)))
     call get_reals(bytes, at, failure%varied)
     call get_error(bytes, at, failure%error)
     call get_string(bytes, at, failure%variant)
-    call get_string(bytes, at, failure%speed_words)
-    call get_string(bytes, at, failure%crank_words)
+    call get_logicals(bytes, at, has)
+    if (has(1)) then
+      call get_reals(bytes, at, number)
+      failure%crank = number(1)
+      call get_string(bytes, at, failure%crank_words)
+    end if
+    if (has(2)) then
+      call get_reals(bytes, at, number)
+      failure%speed = number(1)
+      call get_string(bytes, at, failure%speed_words)
+    end if
+    if (has(3)) then
+      call get_reals(bytes, at, number)
+      failure%time = number(1)
+    end if
   end subroutine get_failure
 
 end module run_findings

@@ -3,19 +3,14 @@
 module run_totals
   use byte_streams, only: get_integers, get_logicals, get_reals, put_integers, put_logicals, &
     put_reals
-  use drive_motions, only: drive_rates
   use kinds, only: long, wp
   use ledger, only: add_ledger, ledger_t
-  use models, only: report_number
-  use position_results, only: frequency_of
-  use reactions_study, only: reaction_values, reactions_at_speed, torque_value
   use sweep_bytes, only: get_ledger, put_ledger
   use text_buffer, only: text_buffer_t
-  use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: run_totals_t, totals_of, add_totals, put_totals, get_totals, range_t, is_empty
+  public :: run_totals_t, add_totals, put_totals, get_totals, range_t, widen, is_empty
 
   !> From the least to the greatest of some values; the other way round if there is none.
   type :: range_t
@@ -37,8 +32,8 @@ module run_totals
                                            !! 0: no frequency found
     type(range_t) :: lowest                !! the first frequency of every position and speed [Hz]
     type(range_t) :: highest               !! the last one [Hz]
-    type(range_t) :: torque                !! driving torque, of REPORT reactions or balance,
-                                           !! of variants without a frequency [N m]
+    type(range_t) :: torque                !! driving torque, of REPORT reactions or balance
+                                           !! [N m]
     integer(long) :: response_speeds = 0_long !! at which an elastic response was sought
     integer(long) :: applications = 0_long !! of its equation
     real(wp) :: strain = -1.0_wp           !! largest of the elastic response; below 0: not sought
@@ -49,93 +44,10 @@ module run_totals
 
 contains
 
-  !> Totals of one variant, without times.
-  pure function totals_of(variant) result(totals)
-    type(variant_results_t), intent(in) :: variant !! computed
-    type(run_totals_t) :: totals
-
-    integer :: i, k
-
-    totals%variants = 1
-    associate (found => variant%found)
-      totals%rows = size(found%positions%crank)
-      totals%positions = size(found%positions%states)
-      totals%motion_steps = found%motion%steps + found%linkage_motion%steps
-      totals%kinematic_solutions = totals%positions + found%harmonics%solutions + &
-        found%sweep%counts%kinematic_solutions + merge(1, 0, found%motion%has_begun)
-      if (allocated(found%geometry%crank)) totals%kinematic_solutions = &
-        totals%kinematic_solutions + size(found%geometry%crank)
-      if (allocated(found%response%at_speed)) call take_response(variant, totals)
-      totals%has_frequencies = allocated(found%sweep%results)
-      if (.not. totals%has_frequencies) then
-        totals%torque = torque_range(variant)
-        return
-      end if
-      totals%speeds = size(found%sweep%request%speed)
-      totals%counts = found%sweep%counts
-      do i = 1, size(found%sweep%results)
-        associate (result => found%sweep%results(i))
-          if (.not. allocated(result%outcome)) cycle
-          do k = 1, size(result%outcome)
-            if (allocated(result%outcome(k)%error)) cycle
-            totals%largest_error = max(totals%largest_error, maxval(result%error(:, k)))
-            call widen(totals%lowest, frequency_of(result%lambda(1, k)))
-            call widen(totals%highest, frequency_of(result%lambda(size(result%lambda, 1), k)))
-          end do
-        end associate
-      end do
-      ! The line after a run names the torque where there is no frequency.
-      if (is_empty(totals%lowest)) totals%torque = torque_range(variant)
-    end associate
-  end function totals_of
-
-  !> The largest strain and displacement of a response.
-  pure subroutine take_response(variant, totals)
-    type(variant_results_t), intent(in) :: variant
-    type(run_totals_t), intent(inout) :: totals
-
-    integer :: k
-    logical :: peaks
-
-    peaks = report_number(variant%model, "peaks") > 0
-    totals%response_speeds = size(variant%found%response%at_speed)
-    totals%applications = sum(variant%found%response%at_speed%applications)
-    do k = 1, size(variant%found%response%at_speed)
-      associate (at_speed => variant%found%response%at_speed(k))
-        if (allocated(at_speed%error)) cycle
-        if (peaks) totals%strain = max(totals%strain, maxval(at_speed%largest_strain%value))
-        if (size(at_speed%displacement) > 0) totals%displacement = max(totals%displacement, &
-          maxval(norm2(at_speed%displacement(:2, :, :), dim=1)))
-      end associate
-    end do
-  end subroutine take_response
-
-  !> The driving torque at all positions and speeds; empty without REPORT reactions or balance.
-  pure function torque_range(variant) result(range)
-    type(variant_results_t), intent(in) :: variant
-    type(range_t) :: range
-
-    real(wp) :: values(reaction_values), rates(2)
-    integer :: i, k, state
-
-    associate (found => variant%found)
-      if (.not. allocated(found%reactions%unit)) return
-      do i = 1, size(found%positions%crank)
-        state = found%positions%state(i)
-        if (allocated(found%positions%states(state)%error)) cycle
-        do k = 1, size(variant%model%speed%value)
-          rates = drive_rates(variant%model, k, i)
-          values = reactions_at_speed(found%reactions, state, rates(1), rates(2), k)
-          call widen(range, values(torque_value))
-        end do
-      end do
-    end associate
-  end function torque_range
-
   !> Takes a value into a range.
   pure subroutine widen(range, value)
-    type(range_t), intent(inout) :: range
-    real(wp), intent(in) :: value
+    type(range_t), intent(inout) :: range !! on return with the value
+    real(wp), intent(in) :: value         !! to take in
 
     range%least = min(range%least, value)
     range%most = max(range%most, value)

@@ -7,16 +7,15 @@ module variant_rows
   use kinds, only: wp
   use report_rows, only: find_rows
   use report_types, only: any_table_t, plan_table, table_plan_t
-  use result_failures, only: find_failures
-  use result_warnings, only: find_warnings
-  use run_findings, only: add_failure, failure_t, findings_t, get_findings, of_variant, &
+  use run_findings, only: add_failure, failure_t, findings_t, get_findings, &
     put_findings
-  use run_totals, only: get_totals, put_totals, run_totals_t, totals_of
+  use run_totals, only: get_totals, put_totals, run_totals_t
   use table_columns, only: header_columns
   use table_rows, only: add_failed_row, get_rows, put_rows, rows_t
   use tables, only: column_t
   use text, only: string_t
   use text_buffer, only: text_buffer_t
+  use variant_findings, only: find_failures, find_warnings, totals_of
   use variant_log, only: log_of_variant
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -104,12 +103,10 @@ contains
       allocate (rows%tables(i)%notes(0))
       call add_failed_row(rows%tables(i)%rows, no_place, error%text)
     end do
-    failure%stage = of_variant
+    failure%stage = "variant"
     failure%error = error
     failure%variant = variant
     failure%varied = varied
-    failure%crank_words = ""
-    failure%speed_words = ""
     call add_failure(rows%findings, failure)
   end subroutine fail_variant
 

@@ -26,7 +26,7 @@ ALLOWED = {"interruption": {"last_signal", "last_tick"}, "main": {"command", "op
 COMPILERS = re.compile(r"slen\.|jumptable\.|A\.\d|\.LC|__?\w+_MOD___(vtab|def_init|final|copy)\w*|__(vtab|def_init)_|\.gomp_critical")
 
 BEGIN = re.compile(r"(?!end\b)[\w\s()=*]*?\b(?:subroutine|function)\s+(\w+)\s*(?:\(|$)")
-WORDS = re.compile(r"(%?)\s*\b([a-z]\w*)\b")
+WORDS = re.compile(r"(?:\b([a-z]\w*)\s*=\s*)?(%\s*)?\b([a-z]\w*)\b")
 
 
 class Procedure:
@@ -35,14 +35,14 @@ class Procedure:
     def __init__(self, module, name, host):
         self.module, self.name, self.host = module, name, host
         self.result, self.returns_text = name, False
-        self.calls, self.in_threads = [], []  # (line, whether of a type, name)
+        self.calls, self.in_threads = [], []  # (line, whether of a type, name, keyword or name on the left of an =)
 
 
 class Module:
     """What names mean in a module."""
 
     def __init__(self, path):
-        self.path, self.uses, self.generic, self.bound = path, {}, {}, {}
+        self.path, self.uses, self.generic, self.bound, self.pointers = path, {}, {}, {}, set()
         self.procedures = {}
         self._read()
 
@@ -79,6 +79,9 @@ class Module:
             elif re.match(r"end\s*type", text):
                 typed = False
             elif typed and (bound := re.match(r"procedure\b[^:]*::\s*(.*)$", text)):
+                if re.match(r"procedure\b[^:]*\bpointer\b", text):
+                    self.pointers.update(re.findall(r"(\w+)\s*(?:=>[^,]*)?", bound[1])[:1])
+                    continue
                 for name in bound[1].split(","):
                     own, _, real = name.partition("=>")
                     self.bound.setdefault(own.strip(), set()).add((real or own).strip())
@@ -99,7 +102,7 @@ class Module:
     @staticmethod
     def _calls(here, line, text, region, locked):
         if here and not locked:
-            found = [(line, mark == "%", name) for mark, name in WORDS.findall(text)]
+            found = [(line, mark != "", name, keyword) for keyword, mark, name in WORDS.findall(text)]
             here.calls += found
             if region:
                 here.in_threads += found
@@ -114,6 +117,13 @@ class Program:
         for module in self.modules.values():
             for name, reals in module.bound.items():
                 self.bound.setdefault(name, []).extend(one for real in reals for one in self.named(module, real))
+        # A component that points at procedures may be any of those that it is given.
+        self.pointers = set().union(*(module.pointers for module in self.modules.values()))
+        for module in self.modules.values():
+            for procedure in module.procedures.values():
+                for _, of_type, name, keyword in procedure.calls:
+                    if keyword in self.pointers and not of_type:
+                        self.bound.setdefault(keyword, []).extend(self.named(module, name))
 
     def named(self, module, name):
         """The procedures that a name may mean in a module."""
@@ -128,7 +138,9 @@ class Program:
         return []
 
     def meant(self, module, calls):
-        for line, of_type, name in calls:
+        for line, of_type, name, keyword in calls:
+            if keyword in self.pointers and not of_type:
+                continue  # it is given, not called
             for one in self.bound.get(name, ()) if of_type else self.named(module, name):
                 yield line, one
 

@@ -25,7 +25,7 @@ module deck_checks
   use round_off, only: round_off_error
   use sorting, only: ascending_order
   use structures, only: elements_replaced, has_beams, has_mesh, structure_t
-  use study_requests, only: method_wanted
+  use mode_requests, only: method_wanted
   use text, only: plural, to_string
   use tokens, only: token_t
   use vibration_models, only: by_link_modes, chosen_method, is_long_link, most_link_unknowns

@@ -6,10 +6,10 @@ module deck_summary
     warnings_of
   use json_text, only: add_item, add_member, json_array, json_list_t, json_null, json_object, &
     json_value
+  use kinds, only: wp
   use models, only: model_t, needs_frequencies
   use program_version, only: program_name, version_number
-  use run_findings, only: at_forces, at_instant, at_position, failure_t, findings_t, in_motion, &
-    in_response, in_campbell, in_intervals, in_stability, in_transient, of_variant, untold_failures
+  use run_findings, only: failure_t, findings_t, untold_failures
   use run_totals, only: run_totals_t
   use tables, only: column_t, has_unit, table_file_t
   use text, only: character_count, plural, string_t
@@ -337,55 +337,25 @@ contains
       call add_member(varied, parameters(i)%text, json_value(failure%varied(i)))
     end do
     call add_member(object, "parameters", json_object(varied))
-    select case (failure%stage)
-    case (in_motion)
-      call add_member(object, "stage", json_value("motion"))
-      call add_member(object, "speed", json_null)
-    case (at_instant, at_position)
-      call add_member(object, "stage", json_value("position"))
-      call add_member(object, "speed", json_null)
-    case (in_response)
-      call add_member(object, "stage", json_value("response"))
-      call add_member(object, "speed", json_value(failure%speed))
-    case (in_stability)
-      call add_member(object, "stage", json_value("stability"))
-      call add_member(object, "speed", json_value(failure%speed))
-    case (in_intervals)
-      call add_member(object, "stage", json_value("intervals"))
-      call add_member(object, "speed", json_value(failure%speed))
-    case (in_campbell)
-      call add_member(object, "stage", json_value("campbell"))
-      call add_member(object, "speed", json_value(failure%speed))
-    case (in_transient)
-      call add_member(object, "stage", json_value("transient"))
-      if (len(failure%speed_words) > 0) then
-        call add_member(object, "speed", json_value(failure%speed))
-      else
-        call add_member(object, "speed", json_null)
-      end if
-    case (at_forces)
-      call add_member(object, "stage", json_value("forces"))
-      call add_member(object, "speed", json_value(failure%speed))
-    case (of_variant)
-      call add_member(object, "stage", json_value("variant"))
-      call add_member(object, "speed", json_null)
-    case default
-      call add_member(object, "stage", json_value("frequencies"))
-      call add_member(object, "speed", json_value(failure%speed))
-    end select
-    if (any(failure%stage == [of_variant, in_response, in_stability, in_intervals, in_campbell, &
-      in_transient])) then
-      call add_member(object, "crank", json_null)
-    else
-      call add_member(object, "crank", json_value(failure%crank))
-    end if
-    if (any(failure%stage == [in_motion, at_instant])) then
-      call add_member(object, "time", json_value(failure%time))
-    else
-      call add_member(object, "time", json_null)
-    end if
+    call add_member(object, "stage", json_value(trim(failure%stage)))
+    call add_number(object, "speed", failure%speed)
+    call add_number(object, "crank", failure%crank)
+    call add_number(object, "time", failure%time)
     call add_member(object, "reason", json_value(failure%error%text))
     value = json_object(object)
   end function failure_object
+
+  !> Adds a number, or null where there is none.
+  pure subroutine add_number(object, name, number)
+    type(json_list_t), intent(inout) :: object
+    character(len=*), intent(in) :: name
+    real(wp), allocatable, intent(in) :: number
+
+    if (allocated(number)) then
+      call add_member(object, name, json_value(number))
+    else
+      call add_member(object, name, json_null)
+    end if
+  end subroutine add_number
 
 end module deck_summary

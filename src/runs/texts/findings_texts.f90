@@ -3,9 +3,7 @@ module findings_texts
   use deck_source, only: source_t
   use diagnostics, only: diagnostics_t, warning_texts
   use kinds, only: wp
-  use run_findings, only: at_forces, at_instant, at_position, failure_t, findings_t, in_motion, &
-    in_response, in_campbell, in_intervals, in_stability, in_transient, of_variant, &
-    place_of_failure, untold_failures, warnings_of_grade
+  use run_findings, only: failure_t, findings_t, untold_failures, warnings_of_grade
   use text, only: string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use warnings, only: grade_doubt, grade_meaningless
@@ -27,32 +25,17 @@ contains
     type(failure_t), intent(in) :: failure
     character(len=:), allocatable :: line
 
-    select case (failure%stage)
-    case (in_motion)
-      line = "motion, time "//to_string(failure%time, 12)//" s, "//place_of_failure(failure)
-    case (at_instant)
-      line = "time "//to_string(failure%time, 12)//" s, "//place_of_failure(failure)
-    case (at_position)
-      line = place_of_failure(failure)
-    case (at_forces)
-      line = "forces, speed "//failure%speed_words//", "//place_of_failure(failure)
-    case (in_response)
-      line = "response, speed "//failure%speed_words
-    case (in_stability)
-      line = "stability, speed "//failure%speed_words
-    case (in_intervals)
-      line = "intervals, speeds "//failure%speed_words
-    case (in_campbell)
-      line = "campbell, speed "//failure%speed_words
-    case (in_transient)
-      line = "transient"
-      if (len(failure%speed_words) > 0) line = line//", speed "//failure%speed_words
-    case (of_variant)
+    if (failure%stage == "variant") then
       line = failure%variant//": "//failure%error%text
       return
-    case default
-      line = "speed "//failure%speed_words//", "//place_of_failure(failure)
-    end select
+    end if
+    line = ""
+    if (all(failure%stage /= [character(len=11) :: "position", "frequencies"])) line = ", "// &
+      trim(failure%stage)
+    if (allocated(failure%time)) line = line//", time "//to_string(failure%time, 12)//" s"
+    if (allocated(failure%speed)) line = line//", "//failure%speed_words
+    if (allocated(failure%crank)) line = line//", crank "//failure%crank_words
+    line = line(3:)
     line = line//": "//failure%error%text
     if (len(failure%variant) > 0) line = failure%variant//", "//line
   end function failure_text
@@ -96,7 +79,6 @@ contains
     integer, intent(in) :: first, last
     character(len=:), allocatable :: line
 
-    integer, parameter :: word = len("crank ")
     type(failure_t) :: all
     character(len=:), allocatable :: from, to
     integer :: worst, i
@@ -110,26 +92,16 @@ contains
       do i = first, last
         if (abs(failed(i)%error%missing) > abs(failed(worst)%error%missing)) worst = i
       end do
-      from = place_of_failure(failed(first))
-      to = place_of_failure(failed(last))
+      from = failed(first)%crank_words
+      to = failed(last)%crank_words
       all = failed(worst)
       if (abs(all%error%missing) > 0.0_wp) all%error%text = all%error%text//" at "// &
-        tail_of(place_of_failure(failed(worst)))
+        all%crank_words
       ! One unit serves both ends.
-      all%crank_words = from(word + 1:index(from, " ", back=.true.))//"to "//to(word + 1:)//", "// &
+      all%crank_words = from(:index(from, " ", back=.true.))//"to "//to//", "// &
         to_string(last - first + 1)//" positions"
     end associate
     line = failure_text(all)
-
-  contains
-
-    pure function tail_of(place) result(tail)
-      character(len=*), intent(in) :: place
-      character(len=:), allocatable :: tail
-
-      tail = place(word + 1:)
-    end function tail_of
-
   end function text_of_alike
 
   !> Warnings, those of meaningless results first, then failed rows, for standard error. Each line
