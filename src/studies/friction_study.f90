@@ -8,7 +8,7 @@ module friction_study
   use linkages, only: linkage_t
   use load_cases, only: constant_case
   use position_loads, only: find_position_loads, find_speed_loads, position_loads_t
-  use positions, only: positions_t
+  use positions, only: positions_t, state_t
   use running_loads, only: lock_of, lock_t, running_t
   use starting_linkages, only: starting_linkage, starting_speed
   implicit none (type, external)
@@ -61,13 +61,9 @@ contains
     type(elastic_division_t), intent(in), optional :: division !! of this linkage, if its elasticity
                                                 !! divides forces
 
-    type(position_loads_t) :: loads
-    type(running_t) :: running
     type(elastic_division_t), allocatable :: of_start
-    type(error_t), allocatable :: failure
     type(linkage_t) :: starting
-    real(wp) :: forward
-    integer :: i, k, n, joints
+    integer :: i, n, joints
 
     starting = starting_linkage(linkage)
     joints = maxval(linkage%frictions%joint)
@@ -82,40 +78,53 @@ contains
       of_start = division
       of_start%structure%linkage%loads = starting%loads
     end if
-    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
-    !$omp   private(i, k, forward, loads, running, failure)
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
     do i = 1, n
-      associate (state => positions%states(i))
-        if (allocated(state%error)) cycle
-        call find_position_loads(linkage, elements, state%pose, state%coefficients, loads, &
-          failure, division)
-        do k = 1, size(speeds, 1)
-          if (allocated(failure)) exit
-          call find_speed_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
-            accelerations(k, i), loads, running, failure, division)
-          if (allocated(failure)) exit
-          found%lock(k, i) = lock_of(running)
-          if (found%lock(k, i)%friction == 0) found%values(:, :, k, i) = values_of(linkage, &
-            joints, running%friction)
-        end do
-        do k = forward_sense, backward_sense
-          if (allocated(failure)) exit
-          forward = merge(starting_speed, -starting_speed, k == forward_sense)
-          call find_speed_loads(starting, state%pose, state%coefficients, forward, 0.0_wp, loads, &
-            running, failure, of_start)
-          if (allocated(failure)) exit
-          found%start_lock(k, i) = lock_of(running)
-          if (found%start_lock(k, i)%friction > 0) cycle
-          associate (constant => loads%unit%of_case(constant_case)%joints%torque, &
-              moving => running%joints%torque)
-            if (abs(constant + moving) > round_off*(abs(constant) + abs(moving))) &
-              found%start(k, i) = constant + moving
-          end associate
-        end do
-        if (allocated(failure)) found%outcome(i)%error = failure
-      end associate
+      if (.not. allocated(positions%states(i)%error)) call find_at(i, positions%states(i))
     end do
     !$omp end parallel do
+
+  contains
+
+    !> Friction at a state.
+    subroutine find_at(i, state)
+      integer, intent(in) :: i !! number of the state
+      type(state_t), intent(in) :: state
+
+      type(position_loads_t) :: loads
+      type(running_t) :: running
+      type(error_t), allocatable :: failure
+      real(wp) :: forward
+      integer :: k
+
+      call find_position_loads(linkage, elements, state%pose, state%coefficients, loads, &
+        failure, division)
+      do k = 1, size(speeds, 1)
+        if (allocated(failure)) exit
+        call find_speed_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
+          accelerations(k, i), loads, running, failure, division)
+        if (allocated(failure)) exit
+        found%lock(k, i) = lock_of(running)
+        if (found%lock(k, i)%friction == 0) found%values(:, :, k, i) = values_of(linkage, &
+          joints, running%friction)
+      end do
+      do k = forward_sense, backward_sense
+        if (allocated(failure)) exit
+        forward = merge(starting_speed, -starting_speed, k == forward_sense)
+        call find_speed_loads(starting, state%pose, state%coefficients, forward, 0.0_wp, loads, &
+          running, failure, of_start)
+        if (allocated(failure)) exit
+        found%start_lock(k, i) = lock_of(running)
+        if (found%start_lock(k, i)%friction > 0) cycle
+        associate (constant => loads%unit%of_case(constant_case)%joints%torque, &
+            moving => running%joints%torque)
+          if (abs(constant + moving) > round_off*(abs(constant) + abs(moving))) &
+            found%start(k, i) = constant + moving
+        end associate
+      end do
+      if (allocated(failure)) found%outcome(i)%error = failure
+    end subroutine find_at
+
   end subroutine find_joint_friction
 
   !> Values of all joints that rub: those of both ends of a block together.

@@ -15,7 +15,7 @@ module joint_study
   use load_cases, only: case_count, constant_case
   use pose_types, only: pins_of_body, pose_t
   use position_loads, only: find_position_loads, find_speed_loads, position_loads_t
-  use positions, only: positions_t
+  use positions, only: positions_t, state_t
   use running_loads, only: depends_on_speed, lock_of, lock_t, running_t
   implicit none (type, external)
   private
@@ -76,11 +76,7 @@ contains
                                                    !! divides the forces of links that are more than
                                                    !! needed; absent: there are none
 
-    type(position_loads_t) :: loads
-    type(running_t) :: running
-    type(error_t), allocatable :: failure
-    real(wp) :: acceleration
-    integer :: i, k, n, running_speeds
+    integer :: i, n, running_speeds
 
     call list_joints(linkage, found%joints)
     n = size(positions%states)
@@ -101,53 +97,66 @@ contains
     found%running_frame = 0.0_wp
     allocate (found%is_open(size(found%joints), n), source=.false.)
     allocate (found%outcome(n))
-    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
-    !$omp   private(i, k, acceleration, loads, running, failure)
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
     do i = 1, n
-      associate (state => positions%states(i))
-        if (allocated(state%error)) cycle
-        call find_position_loads(linkage, elements, state%pose, state%coefficients, loads, &
-          failure, division)
-        if (allocated(failure)) then
-          found%outcome(i)%error = failure
-          cycle
-        end if
-        if (present(division)) found%is_open(:, i) = open_joints(linkage, found%joints, &
-          self_stresses(division, loads%at))
-        do k = 1, case_count
-          call take_forces(linkage, found%joints, loads%unit%of_case(k)%joints, found%force(:, :, &
-            k, i))
-          associate (part => loads%unit%of_case(k))
-            found%drive(:, k, i) = drives_of(part%joints)
-            found%shaking(:, k, i) = [part%shaking_force, part%shaking_moment]
-            found%frame(:, k, i) = find_frame_load(linkage, state%pose, part%joints)
-          end associate
-        end do
-        call turn_guides(linkage, found%joints, state%pose%direction, found%force(:, :, :, i))
-        do k = 1, running_speeds
-          acceleration = 0.0_wp
-          if (present(accelerations)) acceleration = accelerations(k, i)
-          call find_speed_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
-            acceleration, loads, running, failure, division)
-          if (allocated(failure)) then
-            found%outcome(i)%error = failure
-            exit
-          end if
-          found%lock(k, i) = lock_of(running)
-          if (found%lock(k, i)%friction > 0) cycle
-          call take_forces(linkage, found%joints, running%joints, found%running_force(:, :, k, i))
-          found%running_drive(:, k, i) = drives_of(running%joints)
-          found%running_frame(:, k, i) = find_frame_load(linkage, state%pose, running%joints) + &
-            running%on_ground
-        end do
-        found%frame(:, constant_case, i) = found%frame(:, constant_case, i) + &
-          pulls_on_ground(linkage, state%pose, spring_pulls(linkage, state%pose))
-        call turn_guides(linkage, found%joints, state%pose%direction, found%running_force(:, :, :, &
-          i))
-        call add_blocks(linkage, found%joints, state%coefficients, found%force(:, :, :, i))
-      end associate
+      if (.not. allocated(positions%states(i)%error)) call find_at(i, positions%states(i))
     end do
     !$omp end parallel do
+
+  contains
+
+    !> Forces at a state.
+    subroutine find_at(i, state)
+      integer, intent(in) :: i !! number of the state
+      type(state_t), intent(in) :: state
+
+      type(position_loads_t) :: loads
+      type(running_t) :: running
+      type(error_t), allocatable :: failure
+      real(wp) :: acceleration
+      integer :: k
+
+      call find_position_loads(linkage, elements, state%pose, state%coefficients, loads, &
+        failure, division)
+      if (allocated(failure)) then
+        found%outcome(i)%error = failure
+        return
+      end if
+      if (present(division)) found%is_open(:, i) = open_joints(linkage, found%joints, &
+        self_stresses(division, loads%at))
+      do k = 1, case_count
+        call take_forces(linkage, found%joints, loads%unit%of_case(k)%joints, found%force(:, :, &
+          k, i))
+        associate (part => loads%unit%of_case(k))
+          found%drive(:, k, i) = drives_of(part%joints)
+          found%shaking(:, k, i) = [part%shaking_force, part%shaking_moment]
+          found%frame(:, k, i) = find_frame_load(linkage, state%pose, part%joints)
+        end associate
+      end do
+      call turn_guides(linkage, found%joints, state%pose%direction, found%force(:, :, :, i))
+      do k = 1, running_speeds
+        acceleration = 0.0_wp
+        if (present(accelerations)) acceleration = accelerations(k, i)
+        call find_speed_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
+          acceleration, loads, running, failure, division)
+        if (allocated(failure)) then
+          found%outcome(i)%error = failure
+          exit
+        end if
+        found%lock(k, i) = lock_of(running)
+        if (found%lock(k, i)%friction > 0) cycle
+        call take_forces(linkage, found%joints, running%joints, found%running_force(:, :, k, i))
+        found%running_drive(:, k, i) = drives_of(running%joints)
+        found%running_frame(:, k, i) = find_frame_load(linkage, state%pose, running%joints) + &
+          running%on_ground
+      end do
+      found%frame(:, constant_case, i) = found%frame(:, constant_case, i) + &
+        pulls_on_ground(linkage, state%pose, spring_pulls(linkage, state%pose))
+      call turn_guides(linkage, found%joints, state%pose%direction, found%running_force(:, :, :, &
+        i))
+      call add_blocks(linkage, found%joints, state%coefficients, found%force(:, :, :, i))
+    end subroutine find_at
+
   end subroutine find_joints
 
   !> Joints whose forces are open: those of any state of self-stress.

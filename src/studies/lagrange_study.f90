@@ -7,7 +7,7 @@ module lagrange_study
   use lagrange, only: demanded_torque, find_lagrange, kinetic_energy, lagrange_t, velocity_term
   use linkages, only: linkage_t
   use position_loads, only: find_position_loads, find_speed_loads, position_loads_t
-  use positions, only: positions_t
+  use positions, only: positions_t, state_t
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t
   use running_loads, only: depends_on_speed, lock_of, lock_t, running_t
   implicit none (type, external)
@@ -48,11 +48,7 @@ contains
                                                    !! divides the forces that friction depends on
 
     type(rigid_body_t) :: rigid(size(linkage%bodies))
-    type(position_loads_t) :: loads
-    type(running_t) :: running
-    type(error_t), allocatable :: failure
-    real(wp) :: acceleration
-    integer :: i, k, running_speeds
+    integer :: i, running_speeds
 
     rigid = rigid_bodies_of(linkage, elements)
     running_speeds = 0
@@ -62,41 +58,54 @@ contains
     allocate (found%lock(running_speeds, size(positions%states)))
     found%running_load = 0.0_wp
     allocate (found%outcome(size(found%terms)))
-    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) &
-    !$omp   private(i, k, acceleration, loads, running, failure)
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
     do i = 1, size(found%terms)
-      associate (state => positions%states(i))
-        if (allocated(state%error)) cycle
-        found%terms(i) = find_lagrange(linkage, rigid, state%pose, state%coefficients)
-        if (running_speeds > 0 .and. has_friction(linkage)) then
-          call find_position_loads(linkage, elements, state%pose, state%coefficients, loads, &
-            failure, division)
-          if (allocated(failure)) then
-            found%outcome(i)%error = failure
-            cycle
-          end if
-        end if
-        do k = 1, running_speeds
-          acceleration = 0.0_wp
-          if (present(accelerations)) acceleration = accelerations(k, i)
-          if (has_friction(linkage)) then
-            call find_speed_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
-              acceleration, loads, running, failure, division)
-          else
-            call find_speed_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
-              acceleration, loads, running, failure)
-          end if
-          if (allocated(failure)) then
-            found%outcome(i)%error = failure
-            exit
-          end if
-          found%lock(k, i) = lock_of(running)
-          if (found%lock(k, i)%friction > 0) cycle
-          found%running_load(k, i) = running%load
-        end do
-      end associate
+      if (.not. allocated(positions%states(i)%error)) call find_at(i, positions%states(i))
     end do
     !$omp end parallel do
+
+  contains
+
+    !> Terms at a state.
+    subroutine find_at(i, state)
+      integer, intent(in) :: i !! number of the state
+      type(state_t), intent(in) :: state
+
+      type(position_loads_t) :: loads
+      type(running_t) :: running
+      type(error_t), allocatable :: failure
+      real(wp) :: acceleration
+      integer :: k
+
+      found%terms(i) = find_lagrange(linkage, rigid, state%pose, state%coefficients)
+      if (running_speeds > 0 .and. has_friction(linkage)) then
+        call find_position_loads(linkage, elements, state%pose, state%coefficients, loads, &
+          failure, division)
+        if (allocated(failure)) then
+          found%outcome(i)%error = failure
+          return
+        end if
+      end if
+      do k = 1, running_speeds
+        acceleration = 0.0_wp
+        if (present(accelerations)) acceleration = accelerations(k, i)
+        if (has_friction(linkage)) then
+          call find_speed_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
+            acceleration, loads, running, failure, division)
+        else
+          call find_speed_loads(linkage, state%pose, state%coefficients, speeds(k, i), &
+            acceleration, loads, running, failure)
+        end if
+        if (allocated(failure)) then
+          found%outcome(i)%error = failure
+          exit
+        end if
+        found%lock(k, i) = lock_of(running)
+        if (found%lock(k, i)%friction > 0) cycle
+        found%running_load(k, i) = running%load
+      end do
+    end subroutine find_at
+
   end subroutine find_lagrange_terms
 
   !> Values at a speed: M, M' [kg m²], `½ M' ω2²`, gravity, load, torque, kinetic energy, potential
