@@ -54,10 +54,15 @@ ifneq ($(stale),)
 $(shell rm -f $(stale))
 endif
 
+# What reads, checks and keeps, but computes nothing: half of the compilation at -O3, most of it copies of results.
+told := $(patsubst %.f90,$(build)/%.o,$(notdir $(filter src/model/cards/% src/model/checks/% %/model_reader.f90 src/reports/% src/runs/% src/command/% \
+                                                        %/study_results.f90,$(sources))))
+$(told): private FFLAGS := $(subst -O3,-O1,$(flags_$(kind)))
+
 # remember FILE,TEXT: write the file only when the text is new, so that what depends on it is made again just then.
 # The rules without commands say that the files are there: make may have listed the folder before they were.
 remember = $(if $(subst x$(file <$(1)),,x$(2)),$(file >$(1),$(2)))
-$(call remember,$(build)/command,$(compile) $(options) $(libraries))
+$(call remember,$(build)/command,$(compile) $(options) $(libraries) $(told))
 $(build)/command: ;
 
 $(build)/%.o: %.f90 $(build)/command
