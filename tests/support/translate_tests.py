@@ -15,6 +15,8 @@ RELATIONS = {"assert" + name.lower(): "assert" + name for name in (
     "Equal", "NotEqual", "RelativelyEqual", "LessThan", "LessThanOrEqual", "GreaterThan", "GreaterThanOrEqual")}
 TRUTHS = {"asserttrue": "assertTrue", "assertfalse": "assertFalse"}
 SUBROUTINE = re.compile(r"\s*subroutine\s+(\w+)", re.IGNORECASE)
+# Variables of derived types. A test runs once, so they may be kept: their release would be half of the compilation.
+OF_TYPE = re.compile(r"(\s*type\(\w+\))(\s*::[\w\s,]+)$", re.IGNORECASE)
 
 
 class Refused(Exception):
@@ -66,7 +68,7 @@ def assertion(name, text, location):
 
 def translate(path):
     module = os.path.splitext(os.path.basename(path))[0]
-    lines, tests, before, after, expected = [f'#line 1 "{path}"'], [], None, None, None
+    lines, tests, before, after, expected, in_test = [f'#line 1 "{path}"'], [], None, None, None, False
     with open(path, encoding="utf-8") as source:
         for number, line in enumerate(source, 1):
             try:
@@ -86,13 +88,18 @@ def translate(path):
                         raise Refused("an assertion stands on one line and ends with its bracket")
                     line = assertion(word[1], arguments[1], f'"{path}", {number}')
                 elif begun and expected:
-                    if expected == "test":
+                    in_test = expected == "test"
+                    if in_test:
                         tests.append(begun[1])
                     elif expected == "before":
                         before = begun[1]
                     else:
                         after = begun[1]
                     expected = None
+                elif re.match(r"\s*(contains|end\s*subroutine)\b", line, re.IGNORECASE):
+                    in_test = False
+                elif in_test:
+                    line = OF_TYPE.sub(r"\1, save\2", line)
             except Refused as reason:
                 sys.exit(f"{path}:{number}: error: {reason}")
             lines.append(line)
