@@ -1,6 +1,5 @@
 !> `motion_pins.dat`: where the pins are while the linkage moves under its motor and loads.
 module motion_pins_report
-  use errors, only: error_t
   use kinds, only: wp
   use links_report, only: plan_pins
   use models, only: model_t, report_number
@@ -44,21 +43,13 @@ contains
 
     integer :: i
 
-    if (variant%mechanism%is_four_bar) then
-      associate (motion => variant%found%motion)
-        do i = 1, motion%count
-          call add_instant(i, motion%pin(:, :, i))
-        end do
-        if (allocated(motion%error)) call add_end(motion%last%time, motion%error)
-      end associate
-    else
-      associate (motion => variant%found%linkage_motion)
-        do i = 1, motion%count
-          call add_instant(i, motion%samples(i)%pin)
-        end do
-        if (allocated(motion%error)) call add_end(motion%last%time, motion%error)
-      end associate
-    end if
+    associate (motion => variant%found%motion)
+      do i = 1, motion%count
+        call add_instant(i, motion%samples(i)%pin)
+      end do
+      if (allocated(motion%error)) call add_failed_row(rows, [from_si(motion%last%time, &
+        table_factor("time", variant%model%outputs))], motion%error%text)
+    end associate
 
   contains
 
@@ -76,14 +67,6 @@ contains
         end do
       end associate
     end subroutine add_instant
-
-    subroutine add_end(time, error)
-      real(wp), intent(in) :: time !! [s]
-      type(error_t), intent(in) :: error
-
-      call add_failed_row(rows, [from_si(time, table_factor("time", variant%model%outputs))], &
-        error%text)
-    end subroutine add_end
 
   end subroutine add_motion_pins
 

@@ -1,91 +1,80 @@
-!> `motion.dat`: forward dynamics, and its lines in the log.
+!> `motion.dat`: forward dynamics, and its lines in the log. The table of a four-bar has a format of
+!! its own, `four_bar_motion_format`.
 module motion_report
+  use drive_cards, only: moves_along
+  use four_bar_motion_format, only: crank_note, forces_note, four_bar_cells, four_bar_columns, &
+    four_bar_event, motion_columns, motion_words, power_columns
   use kinds, only: long, wp
-  use linkage_notes, only: angle_note
   use load_notes, only: potential_note, work_note
-  use models, only: model_t, report_number
+  use models, only: drives_length, is_four_bar, model_t, report_number
+  use motion_forces_report, only: motion_forces_table_t
   use motion_pins_report, only: motion_pins_table_t, time_in_table
-  use motion_study, only: motion_result_t, motion_tolerance, undetermined_message
+  use linkage_motion_study, only: free_drives, motion_result_t, motion_tolerance, undetermined_message
   use motor_cards, only: is_geared, motor_t
-  use number_text, only: number_width
+  use plan_words, only: group_names
   use report_cards, only: report_t
-  use report_kinds, only: four_bars, report_kind_t
-  use report_types, only: add_table, fit_columns, report_record_t, whole_table_t
-  use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
-    table_unit
+  use report_kinds, only: four_bars, other_linkages, report_kind_t
+  use report_types, only: add_table, fit_columns, report_record_t, table_plan_t, whole_table_t
+  use table_columns, only: cells, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: decimal_cell, name_cell, real_cells
-  use text, only: append_string, plural, string_t, to_string, word_list
+  use tables, only: decimal_cell
+  use text, only: append_string, plural, string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: describe_motion, motion_log, steps_line, implicit_words, most_listed, &
-    power_columns, power_note, append_gear_notes
-
-  !> What `columns=` adds. Forces are those of `reactions.dat`.
-  character(len=*), parameter :: acceleration_columns = " alpha2,alpha3,alpha4:rad/s2", &
-    power_columns = " motor_power,gear_loss,load_power:power", &
-    force_columns = " O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force"
-
-  !> All columns, which a table has if its card asks for them.
-  character(len=*), parameter :: always_columns = "time:time crank,theta3,theta4:deg "// &
-    "omega2,omega3,omega4:rate torque:moment kinetic,potential,work,energy_error:energy "// &
-    "closure:length branch:name", motion_columns = always_columns//acceleration_columns// &
-    power_columns//force_columns
-
-  !> Number of the column `branch`, the last that is always there.
-  integer, parameter :: branch_column = 14
+  public :: describe_motion, describe_linkage_motion, motion_log
 
   character(len=*), parameter :: power_note = "motor_power: of the motor at its shaft; "// &
     "gear_loss: in its gear; load_power: of all loads without a potential; motor_power - "// &
     "gear_loss + load_power is the rate of kinetic + potential"
 
-  character(len=*), parameter :: branch_names = "open crossed"
-
-  !> Turning points, or dead points passed, that the log lists at most.
+  !> Dead points and change points passed that the log lists at most.
   integer, parameter :: most_listed = 200
 
-  character(len=*), parameter :: line_feed = achar(10)
+  character(len=*), parameter :: line_feed = achar(10), default = "speed=0 pins=no", &
+    pattern = "REPORT motion crank= [speed=0] end= step= [columns=accelerations,forces,power] "// &
+    "[pins=no|yes] [change_points=stop|through]"
 
-  !> `motion.dat` of a four-bar.
+  !> `motion.dat`.
   type, extends(whole_table_t) :: motion_table_t
   contains
     procedure, nopass :: find_notes => motion_notes
+    procedure, nopass :: plan => plan_motion
     procedure, nopass :: fit => fit_motion
     procedure, nopass :: add_all => add_motion
   end type motion_table_t
 
 contains
 
-  !> REPORT motion.
+  !> REPORT motion of four-bars.
   subroutine describe_motion(report)
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="motion", help="the motion under motor and loads", &
-      pattern="REPORT motion crank= [speed=0] end= step= [columns=accelerations,forces,"// &
-      "power] [pins=no|yes] [change_points=stop|through]", default="speed=0 pins=no", &
-      studies="motion", masses=.true., linkages=four_bars)
-    call add_table(report, motion_table_t(), "motion", motion_columns, words=motion_words())
+      pattern=pattern, default=default, studies="motion", masses=.true., linkages=four_bars)
+    call add_table(report, motion_table_t(), "motion", motion_columns, words=[motion_words()])
     call add_table(report, motion_pins_table_t(), "motion_pins", "time:time pin:name x,y:length")
   end subroutine describe_motion
 
-  !> The columns that a deck asks for.
-  pure function motion_columns_of(model) result(columns)
-    type(model_t), intent(in) :: model !! with REPORT motion
-    character(len=:), allocatable :: columns
+  !> REPORT motion of other linkages.
+  subroutine describe_linkage_motion(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
 
-    associate (asked => model%reports(report_number(model, "motion")))
-      columns = always_columns
-      if (asked%with_accelerations) columns = columns//acceleration_columns
-      if (asked%with_power) columns = columns//power_columns
-      if (asked%with_forces) columns = columns//force_columns
-    end associate
-  end function motion_columns_of
+    report%kind = report_kind_t(name="motion", help="of other linkages: the motion under "// &
+      "motor and loads", pattern=pattern, default=default, studies="motion", masses=.true., &
+      linkages=other_linkages)
+    call add_table(report, motion_table_t(), "motion", "time:time position*:deg "// &
+      "rate*:rate torque:moment kinetic,potential,work,energy_error:energy "// &
+      "acceleration*:rad/s2 motor_power,gear_loss,load_power:power")
+    call add_table(report, motion_pins_table_t(), "motion_pins", "time:time pin:name x,y:length")
+    call add_table(report, motion_forces_table_t(), "motion_forces", "time:time pin,"// &
+      "link:name fx,fy:force moment:moment")
+  end subroutine describe_linkage_motion
 
-  !> Meaning of the columns, initial energy, tolerance of the integration.
+  !> Meaning of the columns, the initial energy and the tolerance of the integration.
   pure subroutine motion_notes(variant, notes)
     type(variant_results_t), intent(in) :: variant       !! with its motion computed
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
@@ -93,24 +82,55 @@ contains
     type(unit_t) :: energy
 
     energy = table_unit("energy", variant%model%outputs)
-    associate (motion => variant%found%motion)
-      call append_string(notes, "crank, 2: link "//variant%mechanism%names(1)%text//"; "// &
-        angle_note(variant)//"; angles continue past whole turns")
-      call append_string(notes, &
-        "torque: of the motor; "//potential_note)
-      call append_string(notes, work_note//"; closure: the gap of the loop")
+    associate (asked => variant%model%reports(report_number(variant%model, "motion")), &
+        four_bar => variant%mechanism%is_four_bar, motion => variant%found%motion)
+      if (four_bar) then
+        call append_string(notes, crank_note(variant))
+        call append_string(notes, "torque: of the motor; "//potential_note)
+        call append_string(notes, work_note//"; closure: the gap of the loop")
+      else
+        call append_coordinate_notes(variant%model, notes)
+        call append_string(notes, work_note)
+      end if
       call append_gear_notes(variant%model%motor, notes)
-      associate (asked => variant%model%reports(report_number(variant%model, "motion")))
-        if (asked%with_power) call append_string(notes, power_note)
-        if (asked%with_forces) call append_string(notes, "forces in global axes: A2 on link 2 "// &
-          "at A, and so on; O2 and O4 of the ground on links 2 and 4")
-      end associate
-      if (motion%count == 0) return
-      call append_string(notes, "initial energy: "//to_string(from_si(motion%energy, energy))// &
-        " "//energy%name//"; steps of order 8"//implicit_words(motion%implicit_steps)// &
-        ", each to "//to_string(motion_tolerance)//" of a radian and of the speed")
+      if (asked%with_power) call append_string(notes, power_note)
+      if (four_bar .and. asked%with_forces) call append_string(notes, forces_note)
+      if (motion%count > 0) call append_string(notes, "initial energy: "// &
+        to_string(from_si(motion%energy, energy))//" "//energy%name//"; steps of order 8"// &
+        implicit_words(motion%implicit_steps)//", each to "//to_string(motion_tolerance)// &
+        trim(merge(" of a radian and of the speed", "                             ", four_bar)))
     end associate
   end subroutine motion_notes
+
+  !> The coordinates, with their units if these differ, and the torque.
+  pure subroutine append_coordinate_notes(model, notes)
+    type(model_t), intent(in) :: model                     !! with its drives
+    type(string_t), allocatable, intent(inout) :: notes(:) !! to which lines are added
+
+    integer, allocatable :: free(:)
+    type(unit_t) :: of_motor
+    character(len=:), allocatable :: line
+    logical :: mixed
+    integer :: k
+
+    free = free_drives(model%drives%is_free)
+    mixed = are_mixed(model, free)
+    line = "coordinates:"
+    do k = 1, size(free)
+      if (k > 1) line = line//","
+      line = line//" "//to_string(k)//" drive "//model%drives(free(k))%subject%text
+      if (mixed) line = line//unit_words(model, free(k))
+    end do
+    call append_string(notes, line//"; angles continue past whole turns")
+    line = ""
+    if (mixed) then
+      of_motor = table_unit("moment", model%outputs)
+      if (moves_along(model%drives(1)%kind)) of_motor = table_unit("force", model%outputs)
+      line = " in "//of_motor%name
+    end if
+    call append_string(notes, "torque: of the motor on the first drive"//line//"; "// &
+      potential_note)
+  end subroutine append_coordinate_notes
 
   !> What torque and energies are, if the motor has a gear or a rotor.
   pure subroutine append_gear_notes(motor, notes)
@@ -131,13 +151,82 @@ contains
     if (steps > 0) words = ", or 17 where the equations are stiff"
   end function implicit_words
 
-  !> The words in the column `branch`.
-  pure function motion_words() result(list)
-    type(name_list_t) :: list(1)
+  !> Whether some coordinates are angles and others lengths.
+  pure function are_mixed(model, free) result(mixed)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: free(:) !! numbers of the free drives
+    logical :: mixed
 
-    list(1)%column = "branch"
-    list(1)%names = word_list(branch_names)
-  end function motion_words
+    mixed = any(moves_along(model%drives(free)%kind)) .and. .not. all(moves_along(model%drives( &
+      free)%kind))
+  end function are_mixed
+
+  !> ` in deg and rad/s`: the units of the position and the rate of a drive.
+  pure function unit_words(model, drive) result(words)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: drive !! number
+    character(len=:), allocatable :: words
+
+    type(unit_t) :: length, velocity
+
+    words = " in deg and "//model%outputs%rate%name
+    if (.not. moves_along(model%drives(drive)%kind)) return
+    length = table_unit("length", model%outputs)
+    velocity = table_unit("velocity", model%outputs)
+    words = " in "//length%name//" and "//velocity%name
+  end function unit_words
+
+  !> A column for every drive that is free.
+  subroutine plan_motion(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    plan%count = size(free_drives(variant%model%drives%is_free))
+  end subroutine plan_motion
+
+  !> The columns that the card asks for.
+  pure subroutine fit_motion(model, columns)
+    type(model_t), intent(in) :: model         !! with REPORT motion
+    character(len=*), intent(inout) :: columns !! of the record
+
+    columns = motion_columns_of(model)
+    call fit_columns(model, columns)
+  end subroutine fit_motion
+
+  !> The columns of `motion.dat`, in the units of the coordinates; mixed ones in the units of the
+  !! deck, see its head.
+  pure function motion_columns_of(model) result(columns)
+    type(model_t), intent(in) :: model !! with REPORT motion and its drives
+    character(len=:), allocatable :: columns
+
+    integer, allocatable :: free(:)
+
+    if (is_four_bar(model)) then
+      columns = four_bar_columns(model%reports(report_number(model, "motion")))
+      return
+    end if
+    free = free_drives(model%drives%is_free)
+    if (all(moves_along(model%drives(free)%kind))) then
+      columns = "time:time position*:length rate*:velocity torque:force "
+    else if (any(moves_along(model%drives(free)%kind))) then
+      columns = "time:time position*,rate*,torque:see_head "
+    else
+      columns = "time:time position*:deg rate*:rate torque:moment "
+    end if
+    columns = columns//"kinetic,potential,work,energy_error:energy"
+    associate (asked => model%reports(report_number(model, "motion")))
+      if (asked%with_accelerations) then
+        if (all(moves_along(model%drives(free)%kind))) then
+          columns = columns//" acceleration*:acceleration"
+        else if (any(moves_along(model%drives(free)%kind))) then
+          columns = columns//" acceleration*:see_head"
+        else
+          columns = columns//" acceleration*:rad/s2"
+        end if
+      end if
+      if (asked%with_power) columns = columns//power_columns
+    end associate
+  end function motion_columns_of
 
   !> Appends one row per instant, and a failed row if the motion ends before its end time.
   subroutine add_motion(variant, layout, rows)
@@ -145,41 +234,44 @@ contains
     type(table_layout_t), intent(in) :: layout     !! of this table
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    character(len=number_width) :: crank, speed
-    real(wp), allocatable :: extra(:)
-    integer :: i, report
+    character(len=:), allocatable :: row
+    integer :: i
 
-    associate (motion => variant%found%motion, model => variant%model)
-      report = report_number(model, "motion")
+    associate (motion => variant%found%motion, model => variant%model, &
+        asked => variant%model%reports(report_number(variant%model, "motion")))
       do i = 1, motion%count
-        associate (sample => motion%samples(i))
-          crank = cells(layout, 2, [sample%angle(1)])
-          speed = cells(layout, 5, [sample%speed(1)])
-          if (i == 1) then
-            ! The numbers of the deck to the last digit.
-            crank = real_cells([model%reports(report)%start_angle])
-            speed = real_cells([model%shown_start])
-          end if
-          extra = extra_values(model%reports(report), motion, i)
-          if (size(extra) > 0) then
-            if (.not. motion%is_determined(i)) then
-              call add_failed_row(rows, [time_in_table(model, i)], undetermined_message)
-              cycle
-            end if
-          end if
-          call add_row(rows, decimal_cell(time_in_table(model, i))//crank// &
-            cells(layout, 3, sample%angle(2:))//speed//cells(layout, 6, [sample%speed(2:), &
-            sample%torque, sample%kinetic, sample%potential, sample%work, sample%energy_error, &
-            sample%closure])//name_cell(trim(branch_of(sample%is_open)), column_width(layout, &
-            branch_column))//cells(layout, branch_column + 1, extra))
-        end associate
+        if (.not. has_details(asked, motion, i)) then
+          call add_failed_row(rows, [time_in_table(model, i)], undetermined_message)
+          cycle
+        end if
+        if (variant%mechanism%is_four_bar) then
+          call four_bar_cells(model, asked, layout, motion, i, extra_values(asked, motion, i), row)
+        else
+          call general_cells(model, asked, layout, motion, i, row)
+        end if
+        call add_row(rows, decimal_cell(time_in_table(model, i))//row)
       end do
       if (allocated(motion%error)) call add_failed_row(rows, [from_si(motion%last%time, &
-        table_factor("time", variant%model%outputs))], motion%error%text)
+        table_factor("time", model%outputs))], motion%error%text)
     end associate
   end subroutine add_motion
 
-  !> What `columns=` adds to the row of an instant.
+  !> Whether an instant has the values that `columns=` adds to its row.
+  pure function has_details(asked, motion, instant) result(has)
+    type(report_t), intent(in) :: asked
+    type(motion_result_t), intent(in) :: motion
+    integer, intent(in) :: instant !! number
+    logical :: has
+
+    has = .true.
+    if (allocated(motion%is_determined)) has = motion%is_determined(instant)
+    ! Forces of linkages that are no four-bars have a table of their own.
+    if (.not. allocated(motion%samples(instant)%loop)) has = has .or. .not. &
+      (asked%with_accelerations .or. asked%with_power)
+  end function has_details
+
+  !> What `columns=` adds to the row of an instant: accelerations, powers, and in a table of a
+  !! four-bar forces.
   pure function extra_values(asked, motion, instant) result(values)
     type(report_t), intent(in) :: asked
     type(motion_result_t), intent(in) :: motion
@@ -189,47 +281,98 @@ contains
     allocate (values(0))
     if (asked%with_accelerations) values = [values, motion%acceleration(:, instant)]
     if (asked%with_power) values = [values, motion%power(:, instant)]
-    if (asked%with_forces) values = [values, motion%force(:, instant)]
+    if (asked%with_forces) values = [values, reshape(motion%force(:2, :, instant), &
+      [2*size(motion%joints)])]
   end function extra_values
 
-  pure function branch_of(is_open) result(name)
-    logical, intent(in) :: is_open
-    character(len=7) :: name
+  !> The row of an instant behind its time, in the coordinates of the free drives.
+  subroutine general_cells(model, asked, layout, motion, instant, row)
+    type(model_t), intent(in) :: model
+    type(report_t), intent(in) :: asked
+    type(table_layout_t), intent(in) :: layout
+    type(motion_result_t), intent(in) :: motion
+    integer, intent(in) :: instant !! number
+    character(len=:), allocatable, intent(out) :: row
 
-    name = merge("open   ", "crossed", is_open)
-  end function branch_of
+    real(wp), allocatable :: position(:), rate(:), extra(:)
+    real(wp) :: torque
+    integer, allocatable :: free(:)
+    integer :: k
 
-  !> Log lines: one for each point where the crank turns back and each change point passed, then the
-  !! numbers of steps and rows.
-  pure function motion_log(motion) result(text)
-    type(motion_result_t), intent(in) :: motion !! finished
+    free = free_drives(model%drives%is_free)
+    associate (sample => motion%samples(instant))
+      position = sample%position
+      rate = sample%rate
+      torque = sample%torque
+      allocate (extra(0))
+      if (asked%with_accelerations) extra = motion%acceleration(:size(free), instant)
+      if (are_mixed(model, free)) then
+        do k = 1, size(free)
+          if (moves_along(model%drives(free(k))%kind)) then
+            position(k) = from_si(position(k), table_factor("length", model%outputs))
+            rate(k) = from_si(rate(k), table_factor("velocity", model%outputs))
+            if (asked%with_accelerations) extra(k) = from_si(extra(k), &
+              table_factor("acceleration", model%outputs))
+          else
+            rate(k) = from_si(rate(k), model%outputs%rate)
+          end if
+        end do
+        if (moves_along(model%drives(1)%kind)) then
+          torque = from_si(torque, table_factor("force", model%outputs))
+        else
+          torque = from_si(torque, table_factor("moment", model%outputs))
+        end if
+      end if
+      if (asked%with_power) extra = [extra, motion%power(:, instant)]
+      row = cells(layout, 2, [position, rate, torque, sample%kinetic, sample%potential, &
+        sample%work, sample%energy_error, extra])
+    end associate
+  end subroutine general_cells
+
+  !> Log lines: one for each dead point and change point that was passed, then the numbers of steps
+  !! and rows.
+  pure function motion_log(variant) result(text)
+    type(variant_results_t), intent(in) :: variant !! with its motion
     character(len=:), allocatable :: text
 
     type(text_buffer_t) :: buffer
     integer :: i
 
-    do i = 1, min(most_listed, size(motion%turnings))
-      associate (turning => motion%turnings(i))
-        if (turning%is_change_point) then
-          call append_text(buffer, "motion: at t="//to_string(turning%time, 12)// &
-            " s the linkage goes straight through a change point, the crank at "// &
-            to_string(turning%crank, 12)//" deg; it goes on as "//trim(branch_of( &
-            turning%to_open))//line_feed)
-          cycle
-        end if
-        call append_text(buffer, "motion: at t="//to_string(turning%time, 12)// &
-          " s the crank turns back at "//to_string(turning%crank, 12)// &
-          " deg; the linkage changes from "//trim(branch_of(.not. turning%to_open))//" to "// &
-          trim(branch_of(turning%to_open))//line_feed)
-      end associate
-    end do
-    if (size(motion%turnings) > most_listed) then
-      call append_text(buffer, "motion: "//to_string(size(motion%turnings) - most_listed)// &
-        " more of these"//line_feed)
-    end if
-    call append_text(buffer, steps_line(motion%steps, motion%implicit_steps, motion%count))
+    associate (motion => variant%found%motion)
+      if (allocated(motion%passages)) then
+        do i = 1, min(most_listed, size(motion%passages))
+          if (variant%mechanism%is_four_bar) then
+            call append_text(buffer, four_bar_event(motion, i)//line_feed)
+          else
+            call append_text(buffer, event_words(variant, i)//line_feed)
+          end if
+        end do
+        if (size(motion%passages) > most_listed) call append_text(buffer, "motion: "// &
+          to_string(size(motion%passages) - most_listed)//" more of these"//line_feed)
+      end if
+      call append_text(buffer, steps_line(motion%steps, motion%implicit_steps, motion%count))
+    end associate
     text = buffer_text(buffer)
   end function motion_log
+
+  !> What the log says of a dead point that was passed.
+  pure function event_words(variant, number) result(words)
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: number !! of the passage
+    character(len=:), allocatable :: words
+
+    type(unit_t) :: length
+
+    associate (mechanism => variant%mechanism, passage => variant%found%motion%passages(number))
+      words = to_string(passage%position, 12)//" deg"
+      length = table_unit("length", variant%model%outputs)
+      if (drives_length(variant%model)) words = to_string(from_si(passage%position, length), 12)// &
+        " "//length%name
+      words = "motion: at t="//to_string(passage%time, 12)//" s, the first drive at "//words// &
+        ", the linkage passes a dead point of "//group_names(mechanism, &
+        mechanism%linkage%groups(passage%group))//" and goes on on its other branch"
+    end associate
+  end function event_words
 
   !> A line of the log: steps of the methods of integration, and rows.
   pure function steps_line(steps, implicit_steps, rows) result(line)
@@ -244,14 +387,5 @@ contains
       " implicit ones of order 17, where the equations are stiff"
     line = line//", "//plural(rows, "row")//line_feed
   end function steps_line
-
-  !> The columns that the card asks for.
-  pure subroutine fit_motion(model, columns)
-    type(model_t), intent(in) :: model         !! with REPORT motion
-    character(len=*), intent(inout) :: columns !! of the record
-
-    columns = motion_columns_of(model)
-    call fit_columns(model, columns)
-  end subroutine fit_motion
 
 end module motion_report

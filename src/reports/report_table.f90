@@ -17,13 +17,12 @@ module report_table
   use kinematics_report, only: describe_kinematics
   use lagrange_report, only: describe_lagrange
   use limits_report, only: describe_limits
-  use linkage_motion_report, only: describe_linkage_motion
   use linkage_report, only: describe_linkage
   use links_report, only: describe_links, describe_pins
   use loci_report, only: describe_branches
   use mesh_report, only: describe_mesh
   use models, only: model_t, report_number
-  use motion_report, only: describe_motion
+  use motion_report, only: describe_linkage_motion, describe_motion
   use peaks_report, only: describe_peaks
   use points_report, only: describe_points
   use reactions_report, only: describe_reactions

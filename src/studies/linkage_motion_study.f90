@@ -1,4 +1,4 @@
-!> Forward dynamics of linkages that are no four-bars, sampled at given instants.
+!> Forward dynamics: the motion of a linkage under given loads, sampled at given instants.
 module linkage_motion_study
   use drives, only: motor_drive_t
   use elastic_reactions, only: divide_motion, elastic_division_t, new_elastic_division
@@ -8,22 +8,24 @@ module linkage_motion_study
   use joint_forces, only: joint_forces_t
   use joint_study, only: joint_t, joint_values, list_joints, open_joints
   use kinds, only: long, wp
-  use linkage_motions, only: change_point_message, end_linkage_motion, find_linkage_details, &
-    linkage_details_t, linkage_motion_t, linkage_motion_tolerance, linkage_sample_t, &
-    move_linkage_until, passage_t, sample_linkage_motion, start_linkage_motion
+  use linkage_motions, only: end_linkage_motion, find_linkage_details, &
+    linkage_details_t, linkage_motion_t, linkage_sample_t, motion_tolerance, &
+    move_linkage_until, passage_t, refuse_change_point, sample_linkage_motion, start_linkage_motion
+  use linkage_paths, only: leave_path
   use linkage_rates, only: free_drives, no_stop, stop_change_point, stop_energy, stop_locked, &
     stop_many_steps, stop_misfit, stop_no_inertia, stop_too_fast
   use linkages, only: linkage_t
+  use loop_poses, only: has_loop
   use rigid_bodies, only: rigid_bodies_of
   use structures, only: has_elastic_reactions, structure_t
   implicit none (type, external)
   private
 
-  public :: linkage_motion_request_t, linkage_motion_result_t, linkage_motion_under_way_t, &
-    begin_linkage_motion, continue_linkage_motion, finish_linkage_motion, &
-    linkage_motion_tolerance, free_drives
+  public :: motion_request_t, motion_result_t, motion_under_way_t, &
+    begin_motion, continue_motion, finish_motion, &
+    motion_tolerance, free_drives, undetermined_message
 
-  type :: linkage_motion_request_t
+  type :: motion_request_t
     real(wp) :: start = 0.0_wp           !! of the first drive [deg] or [m]
     real(wp) :: speed = 0.0_wp           !! of the first drive [rad/s] or [m/s]
     real(wp) :: end_time = 0.0_wp        !! [s]
@@ -34,9 +36,10 @@ module linkage_motion_study
     logical :: with_details = .false.    !! accelerations and powers are wanted
     logical :: with_forces = .false.     !! forces in the joints are wanted, and the former
     logical :: with_pins = .false.       !! the places of all pins are wanted
-  end type linkage_motion_request_t
+    logical :: through = .false.         !! straight through change points, in place of a stop there
+  end type motion_request_t
 
-  type :: linkage_motion_result_t
+  type :: motion_result_t
     integer :: count = 0                               !! instants reached
     type(linkage_sample_t), allocatable :: samples(:)  !! (all instants) the first `count` are set
     type(linkage_sample_t) :: last                     !! last state reached
@@ -44,12 +47,14 @@ module linkage_motion_study
     integer(long) :: steps = 0_long                    !! of the integration
     integer(long) :: implicit_steps = 0_long           !! those of the implicit method among them
     real(wp) :: energy = 0.0_wp                        !! kinetic + potential, at the start [J]
-    type(passage_t), allocatable :: passages(:)        !! dead points that it has passed
+    type(passage_t), allocatable :: passages(:)        !! dead points and change points that it has
+                                                       !! passed
     logical :: has_begun = .false.                     !! the start was possible
     ! Where details are wanted:
     logical, allocatable :: is_determined(:)           !! (instants) else an instant has none
     real(wp), allocatable :: acceleration(:, :)        !! (free drives, instants) [rad/s²] or
-                                                       !! [m/s²]
+                                                       !! [m/s²]; of a linkage of one loop (3,
+                                                       !! instants) crank, coupler, follower
     real(wp), allocatable :: power(:, :)               !! (3, instants) of the motor, lost in its
                                                        !! gear, of loads without a potential [W]
     type(joint_t), allocatable :: joints(:)            !! as in `joint_study`, where forces are
@@ -57,39 +62,45 @@ module linkage_motion_study
     real(wp), allocatable :: force(:, :, :)            !! (3, joints, instants) fx, fy, moment
                                                        !! [N, N m]
     logical, allocatable :: is_open(:, :)              !! (joints, instants) as in `joint_study`
-  end type linkage_motion_result_t
+  end type motion_result_t
+
+  !> What is said of an instant without details.
+  character(len=*), parameter :: undetermined_message = &
+    "forces do not determine the accelerations at this position"
 
   !> A motion that is being computed.
-  type :: linkage_motion_under_way_t
-    type(linkage_motion_request_t), private :: request
+  type :: motion_under_way_t
+    type(motion_request_t), private :: request
     type(linkage_motion_t), private :: motion
     type(linkage_t), private :: linkage
     type(elastic_division_t), allocatable, private :: division !! of linkages whose elasticity
                                                                !! divides forces
     integer, private :: next = 1  !! number of the next instant
     logical :: is_over = .false.  !! at the end, stopped or interrupted
-  end type linkage_motion_under_way_t
+  end type motion_under_way_t
 
 contains
 
   !> Starts a motion. Errors, in `result%error`: those of `start_linkage_motion`.
-  subroutine begin_linkage_motion(request, linkage, elements, under_way, result, structure)
-    type(linkage_motion_request_t), intent(in) :: request      !! start, end and motor
+  subroutine begin_motion(request, linkage, elements, under_way, result, structure)
+    type(motion_request_t), intent(in) :: request      !! start, end and motor
     type(linkage_t), intent(in) :: linkage                     !! of any kind
     integer, intent(in) :: elements(:)                         !! (bodies) on whose nodes the masses
                                                                !! are lumped; 0: distributed
-    type(linkage_motion_under_way_t), intent(out) :: under_way !! over if the start is impossible
-    type(linkage_motion_result_t), intent(out) :: result       !! without samples yet
+    type(motion_under_way_t), intent(out) :: under_way !! over if the start is impossible
+    type(motion_result_t), intent(out) :: result       !! without samples yet
     class(structure_t), intent(in), optional :: structure      !! of this linkage, with its beams;
                                                                !! absent: none bends
 
     under_way%request = request
-    allocate (result%samples(size(request%instants)))
+    under_way%linkage = linkage
+    if (has_loop(linkage) .or. .not. request%through) call leave_path(under_way%linkage, &
+      request%start)
+    allocate (result%samples(size(request%instants)), result%passages(0))
     if (request%with_details) allocate (result%is_determined(size(request%instants)), &
-      result%acceleration(size(free_drives(request%is_free)), size(request%instants)), &
-      result%power(3, size(request%instants)))
+      result%acceleration(merge(3, size(free_drives(request%is_free)), has_loop(linkage)), &
+      size(request%instants)), result%power(3, size(request%instants)))
     if (request%with_forces) then
-      under_way%linkage = linkage
       call list_joints(linkage, result%joints)
       allocate (result%force(3, size(result%joints), size(request%instants)))
       allocate (result%is_open(size(result%joints), size(request%instants)), source=.false.)
@@ -97,17 +108,17 @@ contains
       under_way%is_over = allocated(result%error)
       if (under_way%is_over) return
     end if
-    call start_linkage_motion(linkage, rigid_bodies_of(linkage, elements), request%is_free, &
-      request%drive, request%start, request%speed, request%end_time, under_way%motion, &
-      result%error, request%gear)
+    call start_linkage_motion(under_way%linkage, rigid_bodies_of(linkage, elements), &
+      request%is_free, request%drive, request%start, request%speed, request%end_time, &
+      under_way%motion, result%error, request%gear, request%through)
     result%has_begun = .not. allocated(result%error)
     under_way%is_over = allocated(result%error)
-  end subroutine begin_linkage_motion
+  end subroutine begin_motion
 
   !> The division of forces by elasticity. Errors: a link has no own modes.
   subroutine take_division(structure, under_way, error)
     class(structure_t), intent(in) :: structure
-    type(linkage_motion_under_way_t), intent(inout) :: under_way
+    type(motion_under_way_t), intent(inout) :: under_way
     type(error_t), allocatable, intent(out) :: error
 
     if (.not. has_elastic_reactions(structure)) return
@@ -116,10 +127,10 @@ contains
   end subroutine take_division
 
   !> Continues a motion over the next instants, until it is over or the given number is reached.
-  subroutine continue_linkage_motion(under_way, instants, result)
-    type(linkage_motion_under_way_t), intent(inout) :: under_way !! begun
+  subroutine continue_motion(under_way, instants, result)
+    type(motion_under_way_t), intent(inout) :: under_way !! begun
     integer, intent(in) :: instants                              !! number, at most
-    type(linkage_motion_result_t), intent(inout) :: result       !! gets the samples
+    type(motion_result_t), intent(inout) :: result       !! gets the samples
 
     integer :: i
 
@@ -138,13 +149,13 @@ contains
     end do
     under_way%next = i
     under_way%is_over = under_way%next > size(result%samples)
-  end subroutine continue_linkage_motion
+  end subroutine continue_motion
 
   !> Accelerations, powers and forces of an instant.
   subroutine take_details(under_way, number, result)
-    type(linkage_motion_under_way_t), intent(in) :: under_way
+    type(motion_under_way_t), intent(in) :: under_way
     integer, intent(in) :: number !! of the instant
-    type(linkage_motion_result_t), intent(inout) :: result
+    type(motion_result_t), intent(inout) :: result
 
     type(linkage_details_t) :: details
     type(joint_forces_t), allocatable :: states(:)
@@ -170,9 +181,9 @@ contains
   !> Ends a motion and completes its result.
   !!
   !! Errors, in `result%error`: the motion has stopped before its end.
-  subroutine finish_linkage_motion(under_way, result)
-    type(linkage_motion_under_way_t), intent(inout) :: under_way !! its memory is released
-    type(linkage_motion_result_t), intent(inout) :: result       !! gets steps, energy, passages
+  subroutine finish_motion(under_way, result)
+    type(motion_under_way_t), intent(inout) :: under_way !! its memory is released
+    type(motion_result_t), intent(inout) :: result       !! gets steps, energy, passages
 
     if (.not. result%has_begun) return
     associate (motion => under_way%motion)
@@ -183,32 +194,35 @@ contains
       if (allocated(motion%left)) then
         result%error = motion%left
       else
-        call explain_stop(motion%stop, result%error)
+        call explain_stop(motion%stop, has_loop(under_way%linkage), result%error)
       end if
     end associate
     call end_linkage_motion(under_way%motion)
-  end subroutine finish_linkage_motion
+  end subroutine finish_motion
 
   !> Turns the reason why a motion has stopped into an error; none for `no_stop`.
-  pure subroutine explain_stop(stop, error)
-    integer, intent(in) :: stop !! as in `linkage_rates`
+  pure subroutine explain_stop(stop, in_loop, error)
+    integer, intent(in) :: stop    !! as in `linkage_rates`
+    logical, intent(in) :: in_loop !! the linkage has one loop, in which all links turn
     type(error_t), allocatable, intent(inout) :: error
 
     select case (stop)
     case (no_stop)
       return
     case (stop_change_point)
-      call set_error(error, error_of_dead_point, change_point_message)
+      call refuse_change_point(in_loop, error)
     case (stop_misfit)
       call set_error(error, error_of_reach, "redundant links do not fit beyond this position")
     case (stop_energy)
       call set_error(error, error_of_numerics, "the energies do not balance: the motion has "// &
         "lost its digits")
     case (stop_no_inertia)
-      call set_error(error, error_of_numerics, &
-        "nothing with a mass moves at this position: there is no inertia")
+      call set_error(error, error_of_numerics, "nothing with a mass moves"//trim(merge( &
+        " with the linkage", "                 ", in_loop))//" at this position: there is no "// &
+        "inertia")
     case (stop_too_fast)
-      call set_error(error, error_of_numerics, "the links move too fast to be integrated")
+      call set_error(error, error_of_numerics, "the links "//merge("turn", "move", in_loop)// &
+        " too fast to be integrated")
     case (stop_many_steps)
       call set_error(error, error_of_numerics, "a million steps of the integration do not "// &
         "reach the next row: 'step=' or 'end=' is too long for a motion as fast as this, or "// &

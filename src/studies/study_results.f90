@@ -13,10 +13,9 @@ module study_results
   use kinematics_study, only: kinematics_result_t
   use lagrange_study, only: lagrange_result_t
   use limits_study, only: limits_result_t
-  use linkage_motion_study, only: linkage_motion_result_t
+  use linkage_motion_study, only: motion_result_t
   use linkage_study, only: linkage_class_t, linkage_result_t
   use loci_study, only: loci_t
-  use motion_study, only: motion_result_t
   use positions, only: positions_t
   use reactions_study, only: reactions_result_t
   use response_types, only: response_t
@@ -47,8 +46,7 @@ module study_results
     type(limits_result_t) :: limits                         !! of any other linkage
     type(equilibria_t) :: equilibria
     type(sizing_result_t) :: sizing
-    type(motion_result_t) :: motion                         !! of a four-bar
-    type(linkage_motion_result_t) :: linkage_motion         !! of any other linkage
+    type(motion_result_t) :: motion
     type(sweep_t) :: sweep
     type(loci_t) :: loci
     type(response_t) :: response

@@ -2,8 +2,9 @@
 !! on the curve or surface of all its positions.
 !!
 !! Near dead points every step has a chart of its own, made where it begins: a drive may come to its
-!! limit and turn back while the linkage goes on, on its other branch. The energy is never
-!! corrected, so that its balance measures the accuracy of the motion.
+!! limit and turn back while the linkage goes on, on its other branch. A linkage of one loop moves
+!! along its curve, whose angles are integrated and projected back onto it after each step. The
+!! energy is never corrected, so that its balance measures the accuracy of the motion.
 module linkage_motions
   use adaptive_integration, only: advance, close_integrator, integrator_t, open_integrator, &
     reopen_integrator, step_by
@@ -18,11 +19,15 @@ module linkage_motions
   use kinds, only: long, wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkage_paths, only: has_change_points, period_of
-  use linkage_rates, only: all_inertia, find_rates_of_coordinates, find_state, free_drives, &
-    inertia_share, moving_linkage_t, no_stop, place_by_drives, rate_of_drive, stop_at_end, &
-    stop_change_point, stop_energy, stop_many_steps, stop_misfit, stop_no_inertia, stop_steps
+  use linkage_rates, only: all_inertia_of, find_rates_of_coordinates, find_state, free_drives, &
+    inertia_share, least_inertia_of, moving_linkage_t, no_stop, place_by_drives, rate_of_drive, &
+    stop_at_end, stop_change_point, stop_energy, stop_many_steps, stop_misfit, stop_no_inertia, &
+    stop_steps
   use linkage_samples, only: find_details, linkage_details_t, linkage_sample_t, sample_state
   use linkages, only: drives_angle, linkage_t
+  use loop_curves, only: change_point_message, choose_branch, curve_point_t, find_point, &
+    find_start, new_loop_curve, place_from_crossing, project, reduce
+  use loop_poses, only: has_loop
   use motion_charts, only: is_same_side, motion_chart_t, new_chart
   use pose_types, only: pose_t
   use poses, only: dead_point_sine, place_links
@@ -35,11 +40,11 @@ module linkage_motions
   public :: linkage_motion_t, linkage_sample_t, passage_t, start_linkage_motion, &
     move_linkage_until, sample_linkage_motion, linkage_details_t, find_linkage_details, &
     end_linkage_motion
-  public :: linkage_motion_tolerance, change_point_message
+  public :: motion_tolerance, refuse_change_point
 
   !> Bound on the estimated error of a step: some forty roundings. Where equations nearly depend on
   !! each other, rounding divided by the square of their independence.
-  real(wp), parameter :: linkage_motion_tolerance = 1.0e-14_wp, rounding = 1.0e-16_wp
+  real(wp), parameter :: motion_tolerance = 1.0e-14_wp, rounding = 1.0e-16_wp
 
   !> With a determinant of a group below the first the coordinates are those of a chart; with all of
   !! them above the second those of the drives again.
@@ -64,14 +69,13 @@ module linkage_motions
   !> A motion whose energies do not balance to this share of the largest is wrong.
   real(wp), parameter :: lost_energy = 1.0e-6_wp
 
-  character(len=*), parameter :: change_point_message = &
-    "change point: links lie in one line, and the linkage may go on either way"
-
-  !> A dead point of a group that the linkage has passed: it is on its other branch.
+  !> A dead point of a group that the linkage has passed: it is on its other branch. Or a change
+  !! point through which it has gone straight on.
   type :: passage_t
     real(wp) :: time = 0.0_wp     !! [s]
     real(wp) :: position = 0.0_wp !! of the first drive, with all whole turns [deg] or [m]
-    integer :: group = 0          !! number in the linkage
+    integer :: group = 0          !! number in the linkage; 0: a change point
+    logical :: to_left = .false.  !! the determinant of the group, or of the first, is then positive
   end type passage_t
 
   !> A motion in progress.
@@ -89,7 +93,7 @@ module linkage_motions
     real(wp), allocatable, private :: position(:) !! (free drives) with all whole turns [deg] or [m]
     logical, allocatable, private :: is_left(:)   !! (groups) the determinant is positive
     real(wp), private :: most_energy = 0.0_wp     !! of all kinds, at the samples so far [J]
-    real(wp), private :: tolerance = linkage_motion_tolerance !! of the present steps
+    real(wp), private :: tolerance = motion_tolerance !! of the present steps
     real(wp), private :: work_scale = 1.0_wp      !! against which the work may be small [J]
   end type linkage_motion_t
 
@@ -101,7 +105,7 @@ contains
   !! Errors: the start is out of reach, a change point, or a dead point with a speed; a speed beyond
   !! the table of the motor; no memory.
   subroutine start_linkage_motion(linkage, rigid, is_free, drive, crank, speed, &
-    duration, motion, error, gear)
+    duration, motion, error, gear, through)
     type(linkage_t), intent(in) :: linkage           !! of any kind, with loads and a path if it
                                                      !! needs one
     type(rigid_body_t), intent(in) :: rigid(:)       !! (bodies) of the linkage
@@ -115,10 +119,13 @@ contains
                                                      !! `end_linkage_motion`
     type(error_t), allocatable, intent(out) :: error !! why it cannot begin
     type(gear_t), intent(in), optional :: gear       !! from the drive to the linkage; absent: none
+    logical, intent(in), optional :: through         !! a loop goes straight through change points,
+                                                     !! in place of a stop there; others go where
+                                                     !! their path leads
 
     type(pose_t) :: pose
     type(linkage_sample_t) :: first
-    real(wp), allocatable :: rates(:), determinants(:)
+    real(wp), allocatable :: rates(:), determinants(:), scale(:)
     integer :: f, k
 
     associate (system => motion%system)
@@ -132,44 +139,100 @@ contains
       f = size(system%free)
       call place_links(linkage, crank, pose, error)
       if (allocated(error)) return
+      if (has_loop(linkage)) call take_loop(motion, crank, speed, through, error)
+      if (allocated(error)) return
       if (any(abs(pose%sine) < dead_point_sine) .and. .not. allocated(pose%coefficients) .and. &
         abs(speed) > 0.0_wp) then
-        call set_error(error, error_of_dead_point, "dead point: at a limit position the first "// &
-          "drive turns back and can have no speed; expected speed=0")
+        call set_error(error, error_of_dead_point, "dead point: at a limit position the "// &
+          trim(merge("crank      ", "first drive", allocated(system%loop)))// &
+          " turns back and can have no speed; expected speed=0")
         return
       end if
       pose%pin = pose%pin - spread(system%whole%origin, 2, size(pose%pin, 2))
       system%period = period_of(linkage)
       system%pose = pose
-      system%chart = new_chart(system%whole, pose, crank, f)
-      system%by_drives = .not. is_near_dead_point(linkage, pose, f)
-      if (system%chart%independence < least_independence .and. .not. system%by_drives) then
-        call set_error(error, error_of_dead_point, change_point_message)
-        return
+      if (.not. allocated(system%loop)) then
+        system%chart = new_chart(system%whole, pose, crank, f)
+        system%by_drives = .not. is_near_dead_point(linkage, pose, f)
+        if (system%chart%independence < least_independence .and. .not. system%by_drives) then
+          call refuse_change_point(.false., error)
+          return
+        end if
       end if
       determinants = determinants_of(linkage, pose)
       ! At a dead point itself the branch is that of the deck: closed forms are on it.
       motion%is_left = merge(determinants > 0.0_wp, linkage%groups%side > 0.0_wp, &
-        abs(determinants) > undecided_sine)
+        abs(determinants) > merge(dead_point_sine, undecided_sine, allocated(system%loop)))
       motion%position = [(drive_value(linkage%drives(system%free(k)), crank), k=1, f)]
-      allocate (motion%state(2*f + 1), motion%passages(0))
-      motion%state = 0.0_wp
-      rates = [(speed*drive_rate(linkage, system%free(k)), k=1, f)]
-      if (system%by_drives) then
-        call take_drives(motion, rates)
-      else if (abs(speed) > 0.0_wp) then
-        call find_rates_of_coordinates(system, rates, motion%state)
+      allocate (motion%passages(0))
+      if (.not. allocated(system%loop)) then
+        allocate (motion%state(2*f + 1))
+        motion%state = 0.0_wp
+        rates = [(speed*drive_rate(linkage, system%free(k)), k=1, f)]
+        if (system%by_drives) then
+          call take_drives(motion, rates)
+        else if (abs(speed) > 0.0_wp) then
+          call find_rates_of_coordinates(system, rates, motion%state)
+        end if
       end if
       call sample_linkage_motion(motion, first)
       motion%energy = first%kinetic + first%potential
       motion%stop = no_stop
       ! Work that is small against the energy of one radian in the whole duration does not matter.
-      motion%work_scale = first%kinetic + all_inertia(system)*(span_of(linkage)/duration)**2
-      motion%tolerance = tolerance_of(motion)
-      call open_integrator(motion%integrator, scale_of(motion, 0.01_wp*duration), &
-        motion%tolerance, 0.01_wp*duration, error)
+      if (allocated(system%loop)) then
+        scale = [1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp/duration, first%kinetic + least_inertia_of(system, &
+          motion%state)/duration**2]
+        motion%most_energy = scale(5)
+      else
+        motion%work_scale = first%kinetic + all_inertia_of(system)*(span_of(linkage)/duration)**2
+        motion%tolerance = tolerance_of(motion)
+        scale = scale_of(motion, 0.01_wp*duration)
+      end if
+      call open_integrator(motion%integrator, scale, motion%tolerance, 0.01_wp*duration, &
+        error)
     end associate
   end subroutine start_linkage_motion
+
+  !> The state of a linkage of one loop. Errors: it is at a change point; those of `find_start`.
+  pure subroutine take_loop(motion, crank, speed, through, error)
+    type(linkage_motion_t), intent(inout) :: motion
+    real(wp), intent(in) :: crank !! [deg]
+    real(wp), intent(in) :: speed !! of the crank [rad/s]
+    logical, intent(in), optional :: through
+    type(error_t), allocatable, intent(inout) :: error
+
+    type(curve_point_t) :: point
+    logical :: is_smooth
+
+    associate (system => motion%system)
+      allocate (system%loop)
+      system%loop = new_loop_curve(system%whole%linkage, through)
+      system%by_drives = .false.
+      system%all_inertia = all_inertia_of(system)
+      allocate (motion%state(5))
+      motion%state = 0.0_wp
+      call find_start(system%whole%linkage, crank, motion%state(1:3), error)
+      if (allocated(error)) return
+      system%turns(1) = anint((crank*degree - motion%state(1))/two_pi)
+      call find_point(system%loop, motion%state(1:3), point, is_smooth)
+      if (abs(speed) > 0.0_wp .and. abs(point%tangent(1)) > 0.0_wp) motion%state(4) = speed/ &
+        point%tangent(1)
+      call choose_branch(system%loop, motion%state(1:3))
+    end associate
+  end subroutine take_loop
+
+  !> The error of a motion that comes to a change point.
+  pure subroutine refuse_change_point(in_loop, error)
+    logical, intent(in) :: in_loop !! of a linkage of one loop: all its links are in line
+    type(error_t), allocatable, intent(inout) :: error !! allocated on return
+
+    if (in_loop) then
+      call set_error(error, error_of_dead_point, change_point_message)
+    else
+      call set_error(error, error_of_dead_point, &
+        "change point: links lie in one line, and the linkage may go on either way")
+    end if
+  end subroutine refuse_change_point
 
   !> Values of the state against which it may change little: of coordinates the linkage, or a
   !! radian, of rates the largest present one, or a hundredth of the linkage in a step.
@@ -196,7 +259,7 @@ contains
     type(linkage_motion_t), intent(in) :: motion
     real(wp) :: tolerance
 
-    tolerance = linkage_motion_tolerance
+    tolerance = motion_tolerance
     if (.not. motion%system%by_drives) tolerance = max(tolerance, &
       rounding/max(motion%system%chart%independence, least_independence)**2)
   end function tolerance_of
@@ -274,7 +337,9 @@ contains
         end if
         return
       end if
-      if (motion%system%by_drives) then
+      if (allocated(motion%system%loop)) then
+        call go_on_in_loop(motion, time_before, before)
+      else if (motion%system%by_drives) then
         call go_on_by_drives(motion)
       else
         call go_on_from_chart(motion, time_before, before)
@@ -296,7 +361,8 @@ contains
     type(linkage_motion_t), intent(in) :: motion
     logical :: is
 
-    is = .not. motion%system%by_drives .and. motion%system%chart%independence < near_change_point
+    is = .not. (motion%system%by_drives .or. allocated(motion%system%loop)) .and. &
+      motion%system%chart%independence < near_change_point
   end function is_near_change_point
 
   !> Whether a drive may come to its limit soon: the determinant of a group is small, and on a path
@@ -393,6 +459,38 @@ contains
     end associate
   end subroutine go_on_from_chart
 
+  !> After a step in a loop: the angles are moved onto its curve, what was passed is recorded, and
+  !! whole turns are taken away.
+  subroutine go_on_in_loop(motion, time, before)
+    type(linkage_motion_t), intent(inout) :: motion
+    real(wp), intent(in) :: time      !! at the beginning of the step [s]
+    real(wp), intent(in) :: before(:) !! state at that time
+
+    real(wp) :: sine, from, to, slope(3)
+    logical :: crosses, changes
+
+    associate (loop => motion%system%loop, angle => motion%state(1:3))
+      call project(loop, angle)
+      sine = sin(angle(3) - angle(2))
+      changes = abs(sine) > undecided_sine .and. (sine > 0.0_wp .neqv. motion%is_left(1))
+      if (changes) motion%is_left(1) = .not. motion%is_left(1)
+      crosses = loop%near > 0
+      if (crosses) then
+        call place_from_crossing(loop, before(1:3), from, slope)
+        call place_from_crossing(loop, angle, to, slope)
+        crosses = from*to < 0.0_wp .or. (abs(to) <= 0.0_wp .and. abs(from) > 0.0_wp)
+      end if
+      if (crosses) then
+        call note_passage(motion, 0, time, before)
+      else if (changes) then
+        call note_passage(motion, 1, time, before)
+      end if
+      call reduce(angle, motion%system%turns)
+      call choose_branch(loop, angle)
+      motion%position(1) = angle(1)/degree + 360.0_wp*motion%system%turns(1)
+    end associate
+  end subroutine go_on_in_loop
+
   !> Whether drives may be the coordinates again: a path is that of the branch of the start only.
   pure function has_way_back(motion) result(has)
     type(linkage_motion_t), intent(in) :: motion
@@ -481,53 +579,94 @@ contains
     do i = 1, size(determinants)
       if (abs(determinants(i)) <= undecided_sine) cycle
       if (determinants(i) > 0.0_wp .eqv. motion%is_left(i)) cycle
-      call note_passage(motion, i, time, before)
       motion%is_left(i) = .not. motion%is_left(i)
+      call note_passage(motion, i, time, before)
       associate (side => motion%system%whole%linkage%groups(i)%side)
         side = -side
       end associate
     end do
   end subroutine note_passages
 
-  !> Records the instant in the last step at which the determinant of a group passed through zero,
-  !! by halving; each trial is a single step from the beginning of the last one.
+  !> Records the instant in the last step at which the determinant of a group, or the place along
+  !! the branch through a change point, passed through zero: by secants, or halving where they leave
+  !! the interval; each trial is a single step from the beginning of the last one. If the sign at
+  !! that beginning is mere rounding, the instant is the beginning itself.
   subroutine note_passage(motion, group, time, before)
     type(linkage_motion_t), intent(inout) :: motion
-    integer, intent(in) :: group
+    integer, intent(in) :: group      !! 0: a change point
     real(wp), intent(in) :: time      !! at the beginning of the step [s]
     real(wp), intent(in) :: before(:) !! state at that time
 
-    type(error_t), allocatable :: error
-    type(pose_t) :: pose
-    type(kinematic_coefficients_t), allocatable :: per(:)
-    type(kinematic_coefficients_t) :: now
+    integer, parameter :: most_trials = 100
+    real(wp) :: low, high, at, next, last, value, last_value, first
     type(passage_t) :: passage
-    real(wp) :: state(size(before)), low, high, middle
     logical :: found
+    integer :: i
 
-    associate (system => motion%system)
-      low = 0.0_wp
-      high = motion%time - time
-      passage = passage_t(motion%time, motion%position(1), group)
-      do while (high - low > 2.0_wp*epsilon(1.0_wp)*motion%time)
-        middle = 0.5_wp*(low + high)
-        if (middle <= low .or. middle >= high) exit
-        state = before
-        call step_by(motion%integrator, system, time, middle, state, error)
-        if (allocated(error)) exit
-        call find_state(system, state, pose, per, now, found)
-        if (.not. found) exit
-        passage%time = time + middle
-        passage%position = drive_position(system%whole, pose, 1, motion%position(1))
-        if (determinant_of(system%whole%linkage, pose, group) > 0.0_wp .eqv. &
-          motion%is_left(group)) then
-          low = middle
-        else
-          high = middle
-        end if
-      end do
-    end associate
+    passage%group = group
+    passage%to_left = motion%is_left(max(1, group))
+    low = 0.0_wp
+    high = motion%time - time
+    call try(high, last_value)
+    last = high
+    call try(low, first)
+    at = low
+    value = first
+    do i = 1, merge(most_trials, 0, found .and. first*last_value < 0.0_wp)
+      next = 0.5_wp*(low + high)
+      if (abs(value - last_value) > 0.0_wp) next = at - value*((at - last)/(value - last_value))
+      if (abs(next - at) <= 2.0_wp*epsilon(1.0_wp)*(time + at)) exit
+      if (.not. (next > low .and. next < high)) next = 0.5_wp*(low + high)
+      if (next <= low .or. next >= high) exit
+      last = at
+      last_value = value
+      at = next
+      call try(at, value)
+      if (.not. found) exit
+      if (value*first > 0.0_wp) then
+        low = at
+      else
+        high = at
+      end if
+      if (.not. abs(value) > 0.0_wp) exit
+    end do
     call append_passage(motion, passage)
+
+  contains
+
+    !> What passes through zero, so long after the beginning.
+    subroutine try(step, value)
+      real(wp), intent(in) :: step
+      real(wp), intent(out) :: value
+
+      type(error_t), allocatable :: error
+      type(pose_t) :: pose
+      type(kinematic_coefficients_t), allocatable :: per(:)
+      type(kinematic_coefficients_t) :: now
+      real(wp) :: state(size(before)), slope(3)
+
+      value = 0.0_wp
+      found = .false.
+      associate (system => motion%system)
+        state = before
+        if (step > 0.0_wp) call step_by(motion%integrator, system, time, step, state, error)
+        if (allocated(error)) return
+        call find_state(system, state, pose, per, now, found)
+        if (.not. found) return
+        passage%time = time + step
+        if (allocated(system%loop)) then
+          passage%position = state(1)/degree + 360.0_wp*system%turns(1)
+        else
+          passage%position = drive_position(system%whole, pose, 1, motion%position(1))
+        end if
+        if (group > 0) then
+          value = determinant_of(system%whole%linkage, pose, group)
+        else
+          call place_from_crossing(system%loop, state(1:3), value, slope)
+        end if
+      end associate
+    end subroutine try
+
   end subroutine note_passage
 
   pure subroutine append_passage(motion, passage)
@@ -551,7 +690,14 @@ contains
     type(linkage_motion_t), intent(inout) :: motion !! begun
     type(linkage_sample_t), intent(out) :: sample   !! of this instant
 
-    call sample_state(motion%system, motion%time, motion%state, motion%position, sample)
+    logical :: found
+
+    call sample_state(motion%system, motion%time, motion%state, motion%position, sample, found)
+    if (.not. found) then
+      if (motion%stop == no_stop) motion%stop = stop_change_point
+      return
+    end if
+    if (allocated(sample%loop)) sample%loop%is_left = motion%is_left(1)
     sample%energy_error = sample%kinetic + sample%potential - sample%work - motion%energy
     motion%most_energy = max(motion%most_energy, sample%kinetic + abs(sample%potential) + &
       abs(sample%work))

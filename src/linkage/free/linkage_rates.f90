@@ -2,7 +2,8 @@
 !!
 !! The first drive is free, and so are those that the deck calls free; the others are held, or
 !! geared to the first. The coordinates are those of the free drives, for which groups have closed
-!! forms; near dead points, where drives turn back, those of a chart (`motion_charts`). With the
+!! forms; near dead points, where drives turn back, those of a chart (`motion_charts`). That of a
+!! linkage of one loop is the length of its curve (`loop_curves`), along with its angles. With the
 !! velocities `h_k` of pins and bodies per rate of coordinate k,
 !! `Σ_l M_kl ü_l = Q_k − Σ m h_k·b`, where M_kl is `Σ m h_k·h_l` over all masses, Q_k the loads
 !! along h_k, and b the accelerations with the present rates and no ü.
@@ -12,7 +13,7 @@ module linkage_rates
     generalised_force
   use block_ends, only: refuse_leaving_block
   use body_points, only: find_point_coefficients, point_coefficients_t
-  use constants, only: degree
+  use constants, only: degree, two_pi
   use dense_factor, only: dense_factor_t, factorize, solve
   use drives, only: drive_t, refuse_speed
   use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
@@ -26,6 +27,8 @@ module linkage_rates
     kinematic_coefficients_t
   use linkages, only: drives_angle, linkage_t
   use load_tables, only: refuse_beyond_tables
+  use loop_curves, only: curve_point_t, find_point, loop_curve_t
+  use loop_poses, only: loop_bodies, place_on_curve
   use motion_charts, only: accelerations, find_on_chart, motion_chart_t, velocities
   use motion_switches, only: has_switches, switches_at
   use pose_types, only: pose_t
@@ -36,7 +39,8 @@ module linkage_rates
   private
 
   public :: moving_linkage_t, linkage_instant_t, find_instant, free_drives, find_state, &
-    place_by_drives, find_rates_of_coordinates, all_inertia, inertia_share, rate_of_drive
+    place_by_drives, find_rates_of_coordinates, all_inertia_of, least_inertia_of, &
+    inertia_share, rate_of_drive
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
     stop_many_steps, stop_misfit, stop_energy, stop_at_end, stop_locked
 
@@ -56,7 +60,8 @@ module linkage_rates
   real(wp), parameter :: least_inertia = 1.0e-13_wp
 
   !> A linkage in motion. Its state: coordinates of the free drives [rad] or [m], or of the chart
-  !! [m], their rates, the work done so far by the drive and all loads without a potential [J].
+  !! [m], their rates, the work done so far by the drive and all loads without a potential [J]. That
+  !! of a loop has its three angles for one coordinate, whose rate ṡ follows.
   type, extends(rate_system_t) :: moving_linkage_t
     type(whole_system_t) :: whole
     type(rigid_body_t), allocatable :: rigid(:) !! (bodies)
@@ -70,6 +75,9 @@ module linkage_rates
     type(pose_t) :: pose                        !! the last one, from `reference_point`: a start for
                                                 !! iterations
     type(motion_chart_t) :: chart               !! whose coordinates the state has else
+    type(loop_curve_t), allocatable :: loop     !! whose angles it has in place of both
+    real(wp) :: turns(3) = 0.0_wp               !! whole turns that these do not contain
+    real(wp) :: all_inertia = 0.0_wp            !! of a loop, `all_inertia_of` it [kg m²]
     integer :: stop = no_stop                   !! why rates were last not found
     type(error_t), allocatable :: left          !! the block that left its link, or the table
                                                 !! that ended, when `stop` says so
@@ -108,7 +116,7 @@ contains
   end function free_drives
 
   !> Pose, velocities per rate of coordinate, velocities and accelerations without ü at a state.
-  subroutine find_state(self, state, pose, per, now, found, left)
+  subroutine find_state(self, state, pose, per, now, found, left, is_crossing)
     class(moving_linkage_t), intent(in) :: self
     real(wp), intent(in) :: state(:)    !! coordinates, rates, work
     type(pose_t), intent(out) :: pose   !! pins from `reference_point`
@@ -117,12 +125,29 @@ contains
     logical, intent(out) :: found       !! the coordinates reach so far
     type(error_t), allocatable, intent(out), optional :: left !! else the block that leaves its
                                                               !! link, or the table that ends
+    logical, intent(out), optional :: is_crossing !! a loop is at a change point
 
     type(dense_factor_t) :: factor
     type(error_t), allocatable :: error
     real(wp) :: direction(size(self%free))
+    type(curve_point_t) :: point
     integer :: f, k
 
+    if (present(is_crossing)) is_crossing = .false.
+
+    if (allocated(self%loop)) then
+      call find_point(self%loop, state(1:3), point, found)
+      if (present(is_crossing)) is_crossing = .not. found
+      if (.not. found) return
+      allocate (per(1))
+      call place_on_curve(self%whole%linkage, self%whole%origin, point, state(1) + &
+        two_pi*self%turns(1), state(4), pose, per(1), now)
+      if (size(self%whole%linkage%loads) > 0) call refuse_beyond_tables(self%whole%linkage, pose, &
+        self%whole%origin, error)
+      found = .not. allocated(error)
+      if (present(left)) call move_alloc(error, left)
+      return
+    end if
     f = size(self%free)
     if (.not. self%by_drives) then
       call find_on_chart(self%whole, self%chart, state(:f), pose, factor, found)
@@ -230,7 +255,11 @@ contains
     integer, intent(in) :: drive                     !! number, from 1
     real(wp) :: rate
 
-    rate = rate_along(self%whole, drive_row(self%whole, pose, drive), now%turn, now%pin)
+    if (allocated(self%loop)) then
+      rate = now%turn(1)
+    else
+      rate = rate_along(self%whole, drive_row(self%whole, pose, drive), now%turn, now%pin)
+    end if
   end function rate_of_drive
 
   !> Rates of the coordinates at which the free drives have given rates.
@@ -274,6 +303,11 @@ contains
     rates = 0.0_wp
     call find_instant(self, time, state, instant, found)
     if (.not. found) return
+    if (allocated(self%loop)) then
+      rates = [instant%motion%turn(loop_bodies(self%whole%linkage)), instant%acceleration, &
+        instant%power]
+      return
+    end if
     rates(:f) = state(f + 1:2*f)
     rates(f + 1:2*f) = instant%acceleration
     rates(2*f + 1) = instant%power
@@ -297,8 +331,12 @@ contains
       rate_of_drive(self, pose, now, 1))
   end function switches_of_motion
 
-  !> The motion at a state: ü, motor, gear and loads. Losses in the gear are found as by
-  !! `find_instant` of four-bars.
+  !> The motion at a state: ü, motor, gear and loads.
+  !!
+  !! The torque through the gear depends on ü, and the losses in the gear on its sign. With either
+  !! losses it has the same sign, so that a second trial at most finds those that there are: of M, Q
+  !! and the motor's torque Tm per coordinate of the driven body it is that of `M Tm − J n Q`.
+  !! Friction in joints may disturb this; then the losses of the second trial count.
   subroutine find_instant(self, time, state, instant, found)
     class(moving_linkage_t), intent(inout) :: self
     real(wp), intent(in) :: time      !! [s]
@@ -307,23 +345,26 @@ contains
     logical, intent(out) :: found     !! as of `rates_of_motion`
 
     type(error_t), allocatable :: left
-    type(kinematic_coefficients_t) :: now
     type(dense_factor_t) :: factor
     real(wp), dimension(size(self%free)) :: right, driving, loading, driven, all_right
     real(wp) :: inertia(size(self%free), size(self%free)), with_rotor(size(self%free), &
       size(self%free)), torque, rate, bent, share, reflected, through, motor
+    logical :: is_crossing
     integer :: f, k, trial
 
     f = size(self%free)
     found = maxval(abs(state)) < most_rate
+    if (allocated(self%loop)) found = found .and. maxval(abs(state(1:3))) < most_angle
     if (.not. found) then
       self%stop = stop_too_fast
       return
     end if
-    associate (pose => instant%pose)
-      call find_state(self, state, pose, instant%per, now, found, left)
+    call find_state(self, state, instant%pose, instant%per, instant%motion, found, left, &
+      is_crossing)
+    associate (pose => instant%pose, now => instant%motion)
       if (.not. found) then
         self%stop = merge(stop_at_end, stop_steps, allocated(left))
+        if (is_crossing) self%stop = stop_change_point
         if (allocated(left)) call move_alloc(left, self%left)
         return
       end if
@@ -333,6 +374,10 @@ contains
         driven = 0.0_wp
         driven(1) = 1.0_wp
         bent = 0.0_wp
+      else if (allocated(self%loop)) then
+        rate = now%turn(1)
+        driven = instant%per(1)%turn(1)
+        bent = now%turn_slope(1)
       else
         rate = rate_of_drive(self, pose, now, 1)
         driven = [(rate_of_drive(self, pose, instant%per(k), 1), k=1, f)]
@@ -359,8 +404,12 @@ contains
         do k = 1, f
           with_rotor(:, k) = inertia(:, k) + reflected*driven(k)*driven
         end do
-        call factorize(with_rotor, factor)
-        found = abs(factor%determinant) > least_inertia
+        if (allocated(self%loop)) then
+          found = with_rotor(1, 1) > least_inertia*self%all_inertia
+        else
+          call factorize(with_rotor, factor)
+          found = abs(factor%determinant) > least_inertia
+        end if
         if (.not. found) then
           self%stop = stop_no_inertia
           return
@@ -369,12 +418,17 @@ contains
         driving = torque*driven
         loading = 0.0_wp
         all_right = right
-        call add_loads(self, now, torque, reflected, instant, all_right, driving, loading, found)
+        call add_loads(self, torque, reflected, instant, all_right, driving, loading, found)
         if (.not. found) then
           self%stop = stop_locked
           return
         end if
-        instant%acceleration = solve(factor, all_right + driving - (reflected*bent)*driven)
+        all_right = all_right + driving - (reflected*bent)*driven
+        if (allocated(self%loop)) then
+          instant%acceleration = all_right/with_rotor(1, 1)
+        else
+          instant%acceleration = solve(factor, all_right)
+        end if
         instant%driven = driven_by(self%gear, motor, share, rate, bent + dot_product(driven, &
           instant%acceleration))
         if (self%gear%efficiency >= 1.0_wp) exit
@@ -382,12 +436,11 @@ contains
         through = instant%driven%through
       end do
       driving = driving - (torque - instant%driven%torque)*driven
-      associate (rates => state(f + 1:2*f))
+      associate (rates => state(size(state) - f:size(state) - 1))
         instant%load_power = dot_product(loading, rates)
         instant%power = dot_product(driving, rates) + instant%driven%to_rotor
       end associate
     end associate
-    instant%motion = now
     do k = 1, f
       instant%motion%turn_slope = instant%motion%turn_slope + instant%acceleration(k)* &
         instant%per(k)%turn
@@ -399,9 +452,8 @@ contains
   !> Adds the generalised forces of springs, dampers, processes and friction: those with a potential
   !! to the first sum, all others, with constant torques, to the second and the third; the instant
   !! gets the loads themselves. Not found where joints lock.
-  pure subroutine add_loads(self, now, torque, reflected, instant, right, driving, loading, found)
+  pure subroutine add_loads(self, torque, reflected, instant, right, driving, loading, found)
     class(moving_linkage_t), intent(in) :: self
-    type(kinematic_coefficients_t), intent(in) :: now
     real(wp), intent(in) :: torque                  !! of the drive, but for the rotor
     real(wp), intent(in) :: reflected               !! its inertia on the first drive
     type(linkage_instant_t), intent(inout) :: instant !! with pose and velocities
@@ -417,7 +469,7 @@ contains
     found = .true.
     pin_load = 0.0_wp
     associate (linkage => self%whole%linkage, origin => self%whole%origin, pose => instant%pose, &
-        per => instant%per)
+        per => instant%per, now => instant%motion)
       do k = 1, size(per)
         added(k) = dot_product(linkage%couple, per(k)%turn)
       end do
@@ -476,7 +528,9 @@ contains
     type(pose_t), intent(in) :: pose
     real(wp) :: coordinate
 
-    coordinate = drive_position(self%whole, pose, 1, self%chart%crank)
+    coordinate = pose%crank
+    if (.not. allocated(self%loop)) coordinate = drive_position(self%whole, pose, 1, &
+      self%chart%crank)
     if (self%whole%linkage%drives(1)%kind == drives_angle) coordinate = coordinate*degree
   end function coordinate_of
 
@@ -533,6 +587,17 @@ contains
     real(wp), intent(in) :: state(:) !! coordinates, rates, work
     real(wp), intent(out) :: share
 
+    share = 0.0_wp
+    if (all_inertia_of(self) > 0.0_wp) share = least_inertia_of(self, state)/all_inertia_of(self)
+  end subroutine inertia_share
+
+  !> The least inertia of the coordinates at a state, with that of the rotor; 0 where there is no
+  !! position [kg] or [kg m²].
+  function least_inertia_of(self, state) result(least)
+    class(moving_linkage_t), intent(in) :: self
+    real(wp), intent(in) :: state(:) !! coordinates, rates, work
+    real(wp) :: least
+
     type(pose_t) :: pose
     type(kinematic_coefficients_t) :: now
     type(kinematic_coefficients_t), allocatable :: per(:)
@@ -540,25 +605,33 @@ contains
     logical :: found
     integer :: k
 
-    share = 0.0_wp
+    least = 0.0_wp
     call find_state(self, state, pose, per, now, found)
-    if (.not. found .or. .not. all_inertia(self) > 0.0_wp) return
+    if (.not. found) return
     call sum_up(self, pose, now, per, inertia, right)
     do k = 1, size(right)
       inertia(k, k) = inertia(k, k) + self%gear%ratio**2*self%gear%rotor*rate_of_drive(self, pose, &
         per(k), 1)**2
     end do
-    share = minval([(inertia(k, k), k=1, size(right))])/all_inertia(self)
-  end subroutine inertia_share
+    least = minval([(inertia(k, k), k=1, size(right))])
+  end function least_inertia_of
 
   !> All masses, and moments of inertia as masses at the length of their bodies, the rotor's at
-  !! that of the first [kg].
-  pure function all_inertia(self) result(all)
+  !! that of the first [kg]; of a loop all masses as moments of inertia at these lengths [kg m²].
+  pure function all_inertia_of(self) result(all)
     class(moving_linkage_t), intent(in) :: self
     real(wp) :: all
 
-    all = sum(self%rigid%mass + self%rigid%inertia/self%whole%scale**2) + &
-      sum(self%whole%linkage%pin_mass) + self%gear%ratio**2*self%gear%rotor/self%whole%scale(1)**2
-  end function all_inertia
+    associate (scale => self%whole%scale, linkage => self%whole%linkage, &
+        rotor => self%gear%ratio**2*self%gear%rotor)
+      if (allocated(self%loop)) then
+        all = sum(self%rigid%mass*scale**2 + self%rigid%inertia) + &
+          sum(linkage%pin_mass)*maxval(scale)**2 + rotor
+      else
+        all = sum(self%rigid%mass + self%rigid%inertia/scale**2) + sum(linkage%pin_mass) + &
+          rotor/scale(1)**2
+      end if
+    end associate
+  end function all_inertia_of
 
 end module linkage_rates

@@ -12,6 +12,8 @@ module linkage_samples
   use linkage_rates, only: find_instant, find_state, linkage_instant_t, moving_linkage_t, &
     rate_of_drive
   use linkages, only: drives_angle
+  use loop_curves, only: closure_error
+  use loop_poses, only: loop_bodies
   use pose_types, only: pose_t
   use poses, only: dead_point_sine
   use rigid_bodies, only: central_inertia, mass_centre
@@ -19,7 +21,15 @@ module linkage_samples
   implicit none (type, external)
   private
 
-  public :: linkage_sample_t, linkage_details_t, sample_state, find_details
+  public :: linkage_sample_t, loop_sample_t, linkage_details_t, sample_state, find_details
+
+  !> What is known of a linkage of one loop besides; arrays in the order crank, coupler, follower.
+  type :: loop_sample_t
+    real(wp) :: angle(3) = 0.0_wp !! θ2, θ3, θ4 with all whole turns [deg]
+    real(wp) :: speed(3) = 0.0_wp !! [rad/s]
+    real(wp) :: closure = 0.0_wp  !! gap of the open loop [m]
+    logical :: is_left = .true.   !! B is to the left of A → O4; else to its right
+  end type loop_sample_t
 
   type :: linkage_sample_t
     real(wp) :: time = 0.0_wp            !! [s]
@@ -34,11 +44,13 @@ module linkage_samples
                                          !! less what the gear takes [J]
     real(wp) :: energy_error = 0.0_wp    !! kinetic + potential − work, less its value at the start
                                          !! [J]
+    type(loop_sample_t), allocatable :: loop !! of a linkage of one loop
   end type linkage_sample_t
 
   !> More about the linkage at an instant.
   type :: linkage_details_t
-    real(wp), allocatable :: acceleration(:) !! (free drives) [rad/s²] or [m/s²]
+    real(wp), allocatable :: acceleration(:) !! (free drives) [rad/s²] or [m/s²]; of a linkage of
+                                             !! one loop (3) crank, coupler, follower
     type(driven_t) :: driven                 !! motor and gear
     real(wp) :: load_power = 0.0_wp          !! of all loads without a potential [W]
     real(wp), allocatable :: direction(:, :) !! (2, bodies) unit vectors, first → last pin
@@ -52,12 +64,14 @@ module linkage_samples
 contains
 
   !> Rates, pins, torque and energies of a state.
-  subroutine sample_state(system, time, state, position, sample)
+  subroutine sample_state(system, time, state, position, sample, is_found)
     type(moving_linkage_t), intent(in) :: system
     real(wp), intent(in) :: time        !! [s]
     real(wp), intent(in) :: state(:)    !! coordinates, rates, work
     real(wp), intent(in) :: position(:) !! (free drives) with all whole turns [deg] or [m]
     type(linkage_sample_t), intent(out) :: sample !! without its error
+    logical, intent(out), optional :: is_found    !! false: this is a change point, and the sample
+                                                  !! has time and position only
 
     type(pose_t) :: pose
     type(kinematic_coefficients_t), allocatable :: per(:)
@@ -72,7 +86,15 @@ contains
       call find_state(system, state, pose, per, now, found)
       sample%time = time
       sample%position = position
+      if (present(is_found)) is_found = found
+      if (.not. found) then
+        ! The motion has come to a change point, and ends.
+        sample%rate = 0.0_wp*position
+        sample%pin = 0.0_wp*linkage%ground_position
+        return
+      end if
       sample%rate = [(rate_of_drive(system, pose, now, system%free(k)), k=1, size(system%free))]
+      if (allocated(system%loop)) call sample_loop(system, state, now, sample)
       unit = merge(degree, 1.0_wp, linkage%drives(1)%kind == drives_angle)
       driven = driven_now(system, time, state, unit*position(1), sample%rate(1))
       sample%torque = driven%torque
@@ -97,6 +119,19 @@ contains
         linkage, pose, origin)
     end associate
   end subroutine sample_state
+
+  !> Angles, their rates and the gap of a loop.
+  pure subroutine sample_loop(system, state, now, sample)
+    type(moving_linkage_t), intent(in) :: system
+    real(wp), intent(in) :: state(:) !! three angles, rate, work
+    type(kinematic_coefficients_t), intent(in) :: now !! velocities
+    type(linkage_sample_t), intent(inout) :: sample
+
+    allocate (sample%loop)
+    sample%loop%angle = state(1:3)/degree + 360.0_wp*system%turns
+    sample%loop%speed = now%turn(loop_bodies(system%whole%linkage))
+    sample%loop%closure = closure_error(system%loop, state(1:3))
+  end subroutine sample_loop
 
   !> Motor and gear at a state. Where there is no acceleration, that of the first drive is taken to
   !! be none.
@@ -145,8 +180,12 @@ contains
     call find_instant(same, time, state, instant, found)
     if (.not. found) return
     associate (whole => system%whole, pose => instant%pose, motion => instant%motion)
-      details%acceleration = [(drive_acceleration(whole, pose, system%free(k), motion), k=1, &
-        size(system%free))]
+      if (allocated(system%loop)) then
+        details%acceleration = motion%turn_slope(loop_bodies(whole%linkage))
+      else
+        details%acceleration = [(drive_acceleration(whole, pose, system%free(k), motion), k=1, &
+          size(system%free))]
+      end if
       details%driven = instant%driven
       details%load_power = instant%load_power
       details%direction = pose%direction
@@ -155,8 +194,8 @@ contains
       details%pose%pin = pose%pin + spread(whole%origin, 2, size(pose%pin, 2))
       details%motion = motion
       if (.not. with_forces) return
-      ! At a change point itself they are not determined.
-      found = all(abs(pose%sine) > dead_point_sine)
+      ! At a change point itself they are not determined; charts have no such places.
+      if (allocated(pose%sine)) found = all(abs(pose%sine) > dead_point_sine)
       if (.not. found) return
       call new_free_equations(whole, system%rigid, pose, instant%per, 0.0_wp, equations)
       found = abs(equations%factor%determinant) > 0.0_wp

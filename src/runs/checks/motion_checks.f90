@@ -1,6 +1,5 @@
 !> Checks of REPORT motion that need mechanics: initial crank angle, moving masses.
 module motion_checks
-  use curve_dynamics, only: curve_dynamics_t, new_curve_dynamics
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_reach
   use four_bar_limits, only: can_reach, reach_t
@@ -56,11 +55,21 @@ contains
     ! leaves: moments of inertia about the two pins are subtracted from each other.
     real(wp), parameter :: rounding = 4.0_wp*epsilon(1.0_wp)
     type(rigid_body_t) :: rigid(size(linkage%bodies))
-    type(curve_dynamics_t) :: dynamics
+    real(wp) :: about
+    integer :: b
 
+    has = any(linkage%pin_mass > 0.0_wp .and. .not. linkage%is_ground)
     rigid = rigid_bodies_of(linkage, elements)
-    dynamics = new_curve_dynamics(linkage, rigid)
-    has = any(dynamics%inertia > rounding*rigid%inertia)
+    do b = 1, size(rigid)
+      associate (body => linkage%bodies(b), it => rigid(b))
+        about = it%inertia
+        if (linkage%is_ground(body%last_pin)) about = about + body%length*(it%mass*body%length - &
+          2.0_wp*it%first_moment(1))
+        has = has .or. about > rounding*it%inertia
+        if (.not. (linkage%is_ground(body%first_pin) .or. linkage%is_ground(body%last_pin))) has = &
+          has .or. it%mass > 0.0_wp
+      end associate
+    end do
   end function has_moving_mass
 
 end module motion_checks

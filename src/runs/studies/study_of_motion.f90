@@ -6,12 +6,8 @@ module study_of_motion
   use gears, only: gear_t
   use joints_report, only: open_words
   use kinds, only: wp
-  use linkage_motion_study, only: begin_linkage_motion, continue_linkage_motion, &
-    finish_linkage_motion, linkage_motion_request_t, linkage_motion_under_way_t
-  use linkage_paths, only: leave_path
-  use linkages, only: linkage_t
   use models, only: model_t, motion_goes_through, report_number
-  use motion_study, only: begin_motion, continue_motion, finish_motion, motion_request_t, &
+  use linkage_motion_study, only: begin_motion, continue_motion, finish_motion, motion_request_t, &
     motion_under_way_t, undetermined_message
   use motor_cards, only: motor_t
   use named_parts, only: name_parts
@@ -26,7 +22,7 @@ module study_of_motion
   implicit none (type, external)
   private
 
-  public :: add_motion_study, motion_request_of, linkage_motion_request_of, motion_instants_of
+  public :: add_motion_study, motion_request_of, motion_instants_of
 
   !> Instants after which the progress is shown.
   integer, parameter :: instants_at_a_time = 100
@@ -40,82 +36,28 @@ contains
       add_failures=add_motion_failures, add_work=add_motion_work, add_memory=add_motion_memory))
   end subroutine add_motion_study
 
+  !> A number of instants at a time.
   subroutine compute_motion(run)
     type(variant_run_t), intent(inout), target :: run
 
-    if (run%results%mechanism%is_four_bar) then
-      call compute_four_bar_motion(run)
-    else
-      call compute_linkage_motion(run)
-    end if
-  end subroutine compute_motion
-
-  !> Motion of a four-bar, a number of instants at a time.
-  subroutine compute_four_bar_motion(run)
-    type(variant_run_t), intent(inout) :: run
-
     type(motion_under_way_t) :: under_way
-    type(motion_request_t) :: request
-    type(linkage_t) :: linkage
 
     associate (mechanism => run%results%mechanism, motion => run%results%found%motion)
-      request = motion_request_of(run%results%model)
-      linkage = mechanism%linkage
-      call leave_path(linkage, request%start_angle)
-      call begin_motion(request, linkage, mechanism%load_elements, under_way, motion)
+      call begin_motion(motion_request_of(run%results%model), mechanism%linkage, &
+        mechanism%load_elements, under_way, motion, mechanism%structure_t)
       do while (.not. under_way%is_over)
         call continue_motion(under_way, instants_at_a_time, motion)
         call show_progress(run%progress, motion%count, size(motion%samples))
       end do
       call finish_motion(under_way, motion)
-    end associate
-  end subroutine compute_four_bar_motion
-
-  !> Motion of any other linkage.
-  subroutine compute_linkage_motion(run)
-    type(variant_run_t), intent(inout) :: run
-
-    type(linkage_motion_under_way_t) :: under_way
-    type(linkage_motion_request_t) :: request
-    type(linkage_t) :: linkage
-
-    associate (mechanism => run%results%mechanism, motion => run%results%found%linkage_motion)
-      request = linkage_motion_request_of(run%results%model)
-      linkage = mechanism%linkage
-      if (.not. motion_goes_through(run%results%model)) call leave_path(linkage, request%start)
-      call begin_linkage_motion(request, linkage, mechanism%load_elements, under_way, motion, &
-        mechanism%structure_t)
-      do while (.not. under_way%is_over)
-        call continue_linkage_motion(under_way, instants_at_a_time, motion)
-        call show_progress(run%progress, motion%count, size(motion%samples))
-      end do
-      call finish_linkage_motion(under_way, motion)
       call name_parts(run%results, motion%error)
     end associate
-  end subroutine compute_linkage_motion
+  end subroutine compute_motion
 
   !> The requested motion.
   pure function motion_request_of(model) result(request)
-    type(model_t), intent(in) :: model         !! with REPORT motion
+    type(model_t), intent(in) :: model !! with REPORT motion
     type(motion_request_t) :: request
-
-    associate (asked => model%reports(report_number(model, "motion")))
-      request%start_angle = asked%start_angle
-      request%start_speed = asked%start_speed
-      request%end_time = asked%end_time
-      request%instants = asked%instants%value
-      request%with_pins = asked%with_pins
-      request%through = motion_goes_through(model)
-      request%with_details = asked%with_accelerations .or. asked%with_forces .or. asked%with_power
-    end associate
-    request%drive = drive_of(model)
-    request%gear = gear_of(model%motor)
-  end function motion_request_of
-
-  !> The requested motion of a linkage that is no four-bar.
-  pure function linkage_motion_request_of(model) result(request)
-    type(model_t), intent(in) :: model         !! with REPORT motion
-    type(linkage_motion_request_t) :: request
 
     associate (asked => model%reports(report_number(model, "motion")))
       request%start = asked%start_angle
@@ -123,13 +65,14 @@ contains
       request%end_time = asked%end_time
       request%instants = asked%instants%value
       request%with_pins = asked%with_pins
+      request%through = motion_goes_through(model)
       request%with_forces = asked%with_forces
       request%with_details = asked%with_accelerations .or. asked%with_forces .or. asked%with_power
     end associate
     request%is_free = model%drives%is_free
     request%drive = drive_of(model)
     request%gear = gear_of(model%motor)
-  end function linkage_motion_request_of
+  end function motion_request_of
 
   !> Number of rows of a motion that reaches its end; 0 without REPORT motion.
   pure function motion_instants_of(model) result(instants)
@@ -178,16 +121,6 @@ contains
       if (allocated(motion%is_determined)) then
         do i = 1, motion%count
           if (.not. motion%is_determined(i)) call note_failure(variant, "motion", undetermined, &
-            findings, crank=motion%samples(i)%angle(1), time=motion%samples(i)%time)
-        end do
-      end if
-      if (allocated(motion%error)) call note_failure(variant, "motion", motion%error, findings, &
-        crank=motion%last%angle(1), time=motion%last%time)
-    end associate
-    associate (motion => variant%found%linkage_motion)
-      if (allocated(motion%is_determined)) then
-        do i = 1, motion%count
-          if (.not. motion%is_determined(i)) call note_failure(variant, "motion", undetermined, &
             findings, crank=motion%samples(i)%position(1), time=motion%samples(i)%time)
         end do
       end if
@@ -211,7 +144,7 @@ contains
     real(wp) :: crank
 
     crank = variant%model%reports(report_number(variant%model, "motion"))%start_angle
-    associate (motion => variant%found%linkage_motion)
+    associate (motion => variant%found%motion)
       if (allocated(motion%last%position)) crank = motion%last%position(1)
     end associate
   end function last_crank
@@ -221,8 +154,9 @@ contains
     type(run_totals_t), intent(inout) :: totals
 
     associate (found => variant%found)
-      totals%motion_steps = found%motion%steps + found%linkage_motion%steps
-      if (found%motion%has_begun) totals%kinematic_solutions = totals%kinematic_solutions + 1
+      totals%motion_steps = found%motion%steps
+      if (found%motion%has_begun .and. variant%mechanism%is_four_bar) &
+        totals%kinematic_solutions = totals%kinematic_solutions + 1
     end associate
   end subroutine add_motion_work
 
@@ -231,7 +165,7 @@ contains
     type(model_t), intent(in) :: model
     type(memory_needs_t), intent(inout) :: needs
 
-    integer, parameter :: numbers = 16 !! of a sample, rounded up
+    integer, parameter :: numbers = 56 !! of a sample, with what its arrays take beside them
     integer, parameter :: of_joint = 3 !! numbers of a joint
     integer :: report, pins, columns, i
 

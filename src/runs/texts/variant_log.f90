@@ -1,7 +1,6 @@
 !> A computed variant in the log.
 module variant_log
   use counterweight_notes, only: balance_log
-  use linkage_motion_report, only: linkage_motion_log
   use linkage_notes, only: notes_on_linkage
   use motion_report, only: motion_log
   use response_notes, only: response_log
@@ -34,8 +33,7 @@ contains
     end do
     associate (found => variant%found)
       if (allocated(found%balance%partial)) text = text//balance_log(variant)
-      if (allocated(found%motion%samples)) text = text//motion_log(found%motion)
-      if (allocated(found%linkage_motion%samples)) text = text//linkage_motion_log(variant)
+      if (allocated(found%motion%samples)) text = text//motion_log(variant)
       if (allocated(found%response%at_speed)) text = text//response_log(variant)
       if (allocated(found%transient%at_speed)) text = text//transient_log(variant)
       if (allocated(found%sweep%results)) text = text//sweep_summary(found%sweep, &
