@@ -4,7 +4,7 @@ module four_bar_motion_format
   use kinds, only: wp
   use linkage_notes, only: angle_note
   use models, only: model_t
-  use linkage_motion_study, only: motion_result_t
+  use motion_study, only: motion_result_t
   use report_cards, only: report_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use tables, only: name_cell, real_cells

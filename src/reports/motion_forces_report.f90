@@ -5,7 +5,7 @@ module motion_forces_report
   use kinds, only: wp
   use load_notes, only: append_load_notes
   use motion_pins_report, only: time_in_table
-  use linkage_motion_study, only: undetermined_message
+  use motion_study, only: undetermined_message
   use report_types, only: whole_table_t
   use table_columns, only: cells, column_width, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t

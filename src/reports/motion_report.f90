@@ -9,7 +9,7 @@ module motion_report
   use models, only: drives_length, is_four_bar, model_t, report_number
   use motion_forces_report, only: motion_forces_table_t
   use motion_pins_report, only: motion_pins_table_t, time_in_table
-  use linkage_motion_study, only: free_drives, motion_result_t, motion_tolerance, undetermined_message
+  use motion_study, only: free_drives, motion_result_t, motion_tolerance, undetermined_message
   use motor_cards, only: is_geared, motor_t
   use plan_words, only: group_names
   use report_cards, only: report_t

@@ -13,7 +13,7 @@ module study_results
   use kinematics_study, only: kinematics_result_t
   use lagrange_study, only: lagrange_result_t
   use limits_study, only: limits_result_t
-  use linkage_motion_study, only: motion_result_t
+  use motion_study, only: motion_result_t
   use linkage_study, only: linkage_class_t, linkage_result_t
   use loci_study, only: loci_t
   use positions, only: positions_t

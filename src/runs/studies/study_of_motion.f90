@@ -7,7 +7,7 @@ module study_of_motion
   use joints_report, only: open_words
   use kinds, only: wp
   use models, only: model_t, motion_goes_through, report_number
-  use linkage_motion_study, only: begin_motion, continue_motion, finish_motion, motion_request_t, &
+  use motion_study, only: begin_motion, continue_motion, finish_motion, motion_request_t, &
     motion_under_way_t, undetermined_message
   use motor_cards, only: motor_t
   use named_parts, only: name_parts

@@ -1,5 +1,5 @@
 !> Forward dynamics: the motion of a linkage under given loads, sampled at given instants.
-module linkage_motion_study
+module motion_study
   use drives, only: motor_drive_t
   use elastic_reactions, only: divide_motion, elastic_division_t, new_elastic_division
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
@@ -235,4 +235,4 @@ contains
     end select
   end subroutine explain_stop
 
-end module linkage_motion_study
+end module motion_study
