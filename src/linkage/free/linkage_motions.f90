@@ -16,6 +16,7 @@ module linkage_motions
   use group_determinants, only: determinant_of, determinants_of
   use group_equations, only: drive_rate, drive_value
   use interruption, only: was_interrupted
+  use joint_friction, only: has_friction
   use kinds, only: long, wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkage_paths, only: has_change_points, period_of
@@ -134,6 +135,8 @@ contains
       system%rigid = rigid
       allocate (system%drive, source=drive)
       if (present(gear)) system%gear = gear
+      system%has_loads = size(linkage%loads) > 0 .or. has_friction(linkage) .or. &
+        any(abs(linkage%couple) > 0.0_wp)
       call refuse_speed(system%drive, system%gear%ratio*speed, error)
       if (allocated(error)) return
       f = size(system%free)

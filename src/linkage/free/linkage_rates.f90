@@ -12,7 +12,6 @@ module linkage_rates
   use applied_loads, only: add_conservative_loads, add_moving_loads, add_prescribed_loads, &
     generalised_force
   use block_ends, only: refuse_leaving_block
-  use body_points, only: find_point_coefficients, point_coefficients_t
   use constants, only: degree, two_pi
   use dense_factor, only: dense_factor_t, factorize, solve
   use drives, only: drive_t, refuse_speed
@@ -59,6 +58,27 @@ module linkage_rates
   !> There are no rates where the scaled determinant of M is below this.
   real(wp), parameter :: least_inertia = 1.0e-13_wp
 
+  !> A linkage at an instant of its motion.
+  type :: linkage_instant_t
+    type(pose_t) :: pose                         !! pins from `reference_point`
+    type(kinematic_coefficients_t), allocatable :: per(:) !! (coordinates) velocities per rate
+    type(kinematic_coefficients_t) :: motion     !! velocities, and accelerations
+    real(wp), allocatable :: acceleration(:)     !! (coordinates) ü
+    type(driven_t) :: driven                     !! motor and gear
+    real(wp) :: load_power = 0.0_wp              !! of all loads without a potential [W]
+    real(wp) :: power = 0.0_wp                   !! of these and of the drive, less what the gear
+                                                 !! takes [W]
+    type(load_t), allocatable :: body_load(:)    !! (bodies) of all loads, but for weights, constant
+                                                 !! forces on pins and constant torques
+    real(wp), allocatable :: pin_load(:, :)      !! (2, pins) likewise [N]
+    real(wp), allocatable :: friction(:)         !! (frictions) efforts [N m] or [N]; not allocated
+                                                 !! where nothing rubs
+    ! Equations, kept as room for the next instant:
+    real(wp), allocatable, private :: inertia(:, :), with_rotor(:, :) !! (coordinates, coordinates)
+    real(wp), allocatable, private :: right(:), driving(:), loading(:), first_rate(:), &
+      all_right(:)
+  end type linkage_instant_t
+
   !> A linkage in motion. Its state: coordinates of the free drives [rad] or [m], or of the chart
   !! [m], their rates, the work done so far by the drive and all loads without a potential [J]. That
   !! of a loop has its three angles for one coordinate, whose rate ṡ follows.
@@ -78,6 +98,8 @@ module linkage_rates
     type(loop_curve_t), allocatable :: loop     !! whose angles it has in place of both
     real(wp) :: turns(3) = 0.0_wp               !! whole turns that these do not contain
     real(wp) :: all_inertia = 0.0_wp            !! of a loop, `all_inertia_of` it [kg m²]
+    type(linkage_instant_t), allocatable, private :: instant !! the last one: room for the next
+    logical :: has_loads = .true.               !! besides weights and constant forces on pins
     integer :: stop = no_stop                   !! why rates were last not found
     type(error_t), allocatable :: left          !! the block that left its link, or the table
                                                 !! that ended, when `stop` says so
@@ -85,23 +107,6 @@ module linkage_rates
     procedure :: find_rates => rates_of_motion
     procedure :: switches => switches_of_motion
   end type moving_linkage_t
-
-  !> A linkage at an instant of its motion.
-  type :: linkage_instant_t
-    type(pose_t) :: pose                         !! pins from `reference_point`
-    type(kinematic_coefficients_t), allocatable :: per(:) !! (coordinates) velocities per rate
-    type(kinematic_coefficients_t) :: motion     !! velocities, and accelerations
-    real(wp), allocatable :: acceleration(:)     !! (coordinates) ü
-    type(driven_t) :: driven                     !! motor and gear
-    real(wp) :: load_power = 0.0_wp              !! of all loads without a potential [W]
-    real(wp) :: power = 0.0_wp                   !! of these and of the drive, less what the gear
-                                                 !! takes [W]
-    type(load_t), allocatable :: body_load(:)    !! (bodies) of all loads, but for weights, constant
-                                                 !! forces on pins and constant torques
-    real(wp), allocatable :: pin_load(:, :)      !! (2, pins) likewise [N]
-    real(wp), allocatable :: friction(:)         !! (frictions) efforts [N m] or [N]; not allocated
-                                                 !! where nothing rubs
-  end type linkage_instant_t
 
 contains
 
@@ -119,9 +124,9 @@ contains
   subroutine find_state(self, state, pose, per, now, found, left, is_crossing)
     class(moving_linkage_t), intent(in) :: self
     real(wp), intent(in) :: state(:)    !! coordinates, rates, work
-    type(pose_t), intent(out) :: pose   !! pins from `reference_point`
-    type(kinematic_coefficients_t), allocatable, intent(out) :: per(:) !! (coordinates)
-    type(kinematic_coefficients_t), intent(out) :: now                 !! per second
+    type(pose_t), intent(inout) :: pose !! new, or of another state; pins from `reference_point`
+    type(kinematic_coefficients_t), allocatable, intent(inout) :: per(:) !! likewise (coordinates)
+    type(kinematic_coefficients_t), intent(inout) :: now !! likewise, per second
     logical, intent(out) :: found       !! the coordinates reach so far
     type(error_t), allocatable, intent(out), optional :: left !! else the block that leaves its
                                                               !! link, or the table that ends
@@ -139,7 +144,7 @@ contains
       call find_point(self%loop, state(1:3), point, found)
       if (present(is_crossing)) is_crossing = .not. found
       if (.not. found) return
-      allocate (per(1))
+      if (.not. allocated(per)) allocate (per(1))
       call place_on_curve(self%whole%linkage, self%whole%origin, point, state(1) + &
         two_pi*self%turns(1), state(4), pose, per(1), now)
       if (size(self%whole%linkage%loads) > 0) call refuse_beyond_tables(self%whole%linkage, pose, &
@@ -149,6 +154,7 @@ contains
       return
     end if
     f = size(self%free)
+    if (allocated(per)) deallocate (per)
     if (.not. self%by_drives) then
       call find_on_chart(self%whole, self%chart, state(:f), pose, factor, found)
       if (.not. found) return
@@ -296,21 +302,29 @@ contains
     real(wp), intent(out) :: rates(:) !! of the state; defined only if found
     logical, intent(out) :: found     !! false: `stop` is set
 
-    type(linkage_instant_t) :: instant
+    type(linkage_instant_t), allocatable :: instant
     integer :: f
 
     f = size(self%free)
     rates = 0.0_wp
-    call find_instant(self, time, state, instant, found)
-    if (.not. found) return
-    if (allocated(self%loop)) then
-      rates = [instant%motion%turn(loop_bodies(self%whole%linkage)), instant%acceleration, &
-        instant%power]
-      return
+    if (allocated(self%instant)) then
+      call move_alloc(self%instant, instant)
+    else
+      allocate (instant)
     end if
-    rates(:f) = state(f + 1:2*f)
-    rates(f + 1:2*f) = instant%acceleration
-    rates(2*f + 1) = instant%power
+    call find_instant(self, time, state, instant, found)
+    call move_alloc(instant, self%instant)
+    if (.not. found) return
+    associate (instant => self%instant)
+      if (allocated(self%loop)) then
+        rates = [instant%motion%turn(loop_bodies(self%whole%linkage)), instant%acceleration, &
+          instant%power]
+        return
+      end if
+      rates(:f) = state(f + 1:2*f)
+      rates(f + 1:2*f) = instant%acceleration
+      rates(2*f + 1) = instant%power
+    end associate
   end subroutine rates_of_motion
 
   !> Arguments of the loads that turn over with the motion.
@@ -341,14 +355,12 @@ contains
     class(moving_linkage_t), intent(inout) :: self
     real(wp), intent(in) :: time      !! [s]
     real(wp), intent(in) :: state(:)  !! coordinates, rates, work
-    type(linkage_instant_t), intent(out) :: instant
+    type(linkage_instant_t), intent(inout) :: instant !! new, or another one of this motion
     logical, intent(out) :: found     !! as of `rates_of_motion`
 
     type(error_t), allocatable :: left
     type(dense_factor_t) :: factor
-    real(wp), dimension(size(self%free)) :: right, driving, loading, driven, all_right
-    real(wp) :: inertia(size(self%free), size(self%free)), with_rotor(size(self%free), &
-      size(self%free)), torque, rate, bent, share, reflected, through, motor
+    real(wp) :: torque, rate, bent, share, reflected, through, motor
     logical :: is_crossing
     integer :: f, k, trial
 
@@ -361,7 +373,13 @@ contains
     end if
     call find_state(self, state, instant%pose, instant%per, instant%motion, found, left, &
       is_crossing)
-    associate (pose => instant%pose, now => instant%motion)
+    if (.not. allocated(instant%right)) allocate (instant%right(f), instant%driving(f), &
+      instant%loading(f), instant%first_rate(f), instant%all_right(f), instant%inertia(f, f), &
+      instant%with_rotor(f, f), instant%acceleration(f))
+    associate (pose => instant%pose, now => instant%motion, right => instant%right, &
+        driving => instant%driving, loading => instant%loading, driven => instant%first_rate, &
+        all_right => instant%all_right, inertia => instant%inertia, &
+        with_rotor => instant%with_rotor)
       if (.not. found) then
         self%stop = merge(stop_at_end, stop_steps, allocated(left))
         if (is_crossing) self%stop = stop_change_point
@@ -418,14 +436,19 @@ contains
         driving = torque*driven
         loading = 0.0_wp
         all_right = right
-        call add_loads(self, torque, reflected, instant, all_right, driving, loading, found)
-        if (.not. found) then
-          self%stop = stop_locked
-          return
+        if (self%has_loads) then
+          call add_loads(self, torque, reflected, instant, all_right, driving, loading, found)
+          if (.not. found) then
+            self%stop = stop_locked
+            return
+          end if
+        else if (.not. allocated(instant%pin_load)) then
+          allocate (instant%body_load(size(self%rigid)))
+          instant%pin_load = 0.0_wp*pose%pin
         end if
         all_right = all_right + driving - (reflected*bent)*driven
         if (allocated(self%loop)) then
-          instant%acceleration = all_right/with_rotor(1, 1)
+          instant%acceleration(1) = all_right(1)/with_rotor(1, 1)
         else
           instant%acceleration = solve(factor, all_right)
         end if
@@ -543,24 +566,32 @@ contains
     real(wp), intent(out) :: inertia(:, :)
     real(wp), intent(out) :: right(:)
 
-    type(point_coefficients_t) :: point, along(size(per))
-    real(wp) :: force(2), turning
+    real(wp) :: along(2, size(per)), force(2), turning
+    real(wp), dimension(2) :: centre, arm, across, slope
     integer :: b, k, l, p
 
     inertia = 0.0_wp
     right = 0.0_wp
     associate (linkage => self%whole%linkage, rigid => self%rigid)
       do b = 1, size(rigid)
-        point = find_point_coefficients(linkage, pose, now, b, mass_centre(rigid(b)))
+        centre = mass_centre(rigid(b))
         turning = central_inertia(rigid(b))
-        force = rigid(b)%mass*(linkage%gravity - point%slope)
+        associate (axis => pose%direction(:, b), pin => linkage%bodies(b)%first_pin)
+          ! As `find_point_coefficients` has it, without calls: this is most of the work of a step.
+          arm = centre(1)*axis + centre(2)*[-axis(2), axis(1)]
+          across = [-arm(2), arm(1)]
+          slope = now%pin_slope(:, pin) + now%turn_slope(b)*across - now%turn(b)**2*arm
+          do k = 1, size(per)
+            along(:, k) = per(k)%pin(:, pin) + per(k)%turn(b)*across
+          end do
+        end associate
+        force = rigid(b)%mass*(linkage%gravity - slope)
         do k = 1, size(per)
-          along(k) = find_point_coefficients(linkage, pose, per(k), b, mass_centre(rigid(b)))
-          right(k) = right(k) + dot_product(force, along(k)%rate) - turning*now%turn_slope(b)* &
+          right(k) = right(k) + dot_product(force, along(:, k)) - turning*now%turn_slope(b)* &
             per(k)%turn(b)
           do l = 1, k
-            inertia(k, l) = inertia(k, l) + rigid(b)%mass*dot_product(along(k)%rate, &
-              along(l)%rate) + turning*per(k)%turn(b)*per(l)%turn(b)
+            inertia(k, l) = inertia(k, l) + rigid(b)%mass*dot_product(along(:, k), &
+              along(:, l)) + turning*per(k)%turn(b)*per(l)%turn(b)
           end do
         end do
       end do

@@ -48,26 +48,15 @@ contains
     type(curve_point_t), intent(in) :: point  !! its directions, tangent and curvature
     real(wp), intent(in) :: crank             !! angle of the crank, with all whole turns [rad]
     real(wp), intent(in) :: rate              !! ṡ [rad/s]
-    type(pose_t), intent(out) :: pose         !! without `sine`
-    type(kinematic_coefficients_t), intent(out) :: per !! [-], [m]; its slopes are 0
-    type(kinematic_coefficients_t), intent(out) :: now !! per second
+    type(pose_t), intent(inout) :: pose       !! new, or at another point; without `sine`
+    type(kinematic_coefficients_t), intent(inout) :: per !! likewise [-], [m]; its slopes are 0
+    type(kinematic_coefficients_t), intent(inout) :: now !! likewise, per second
 
     real(wp) :: arm(2), across(2), speed, acceleration
-    integer :: body(3), base(3), tip(3), pins, i
+    integer :: body(3), base(3), tip(3), i
 
-    pins = size(linkage%is_ground)
-    allocate (pose%pin(2, pins), pose%direction(2, 3), per%turn(3), per%turn_slope(3), &
-      per%pin(2, pins), per%pin_slope(2, pins), now%turn(3), now%turn_slope(3), now%pin(2, pins), &
-      now%pin_slope(2, pins))
+    if (.not. allocated(pose%pin)) call make_room(linkage, origin, pose, per, now)
     pose%crank = crank/degree
-    do i = 1, pins
-      pose%pin(:, i) = linkage%ground_position(:, i) - origin
-    end do
-    per%turn_slope = 0.0_wp
-    per%pin = 0.0_wp
-    per%pin_slope = 0.0_wp
-    now%pin = 0.0_wp
-    now%pin_slope = 0.0_wp
     associate (dyad => linkage%groups(1), first => linkage%bodies(1))
       body = [1, dyad%body]
       base = [first%first_pin, dyad%base]
@@ -91,5 +80,28 @@ contains
       end associate
     end do
   end subroutine place_on_curve
+
+  !> Room for all, with the places of the ground, which do not move.
+  pure subroutine make_room(linkage, origin, pose, per, now)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: origin(2)
+    type(pose_t), intent(inout) :: pose
+    type(kinematic_coefficients_t), intent(inout) :: per, now
+
+    integer :: pins, i
+
+    pins = size(linkage%is_ground)
+    allocate (pose%pin(2, pins), pose%direction(2, 3), per%turn(3), per%turn_slope(3), &
+      per%pin(2, pins), per%pin_slope(2, pins), now%turn(3), now%turn_slope(3), now%pin(2, pins), &
+      now%pin_slope(2, pins))
+    do i = 1, pins
+      pose%pin(:, i) = linkage%ground_position(:, i) - origin
+    end do
+    per%turn_slope = 0.0_wp
+    per%pin = 0.0_wp
+    per%pin_slope = 0.0_wp
+    now%pin = 0.0_wp
+    now%pin_slope = 0.0_wp
+  end subroutine make_room
 
 end module loop_poses
