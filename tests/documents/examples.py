@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import tempfile
+from glob import glob
 
 from runs import Run
 
@@ -121,8 +122,10 @@ def commands_on_tables(program, texts):
 
 def targets(_, texts):
     """Every `make TARGET` is there."""
-    with open("Makefile", encoding="utf-8") as file:
-        known = set(re.findall(r"^([a-z-]+):", file.read(), re.MULTILINE))
+    known = set()
+    for path in ["Makefile"] + glob(os.path.join("make", "*.mk")):
+        with open(path, encoding="utf-8") as file:
+            known.update(re.findall(r"^([a-z-]+):", file.read(), re.MULTILINE))
     for path, text in texts.items():
         shown = "\n".join(re.findall(r"`(make [^`]*)`", text) + blocks(text))
         for target in set(re.findall(r"\bmake ((?:[A-Z]+=\S+ )*[a-z][a-z-]+)", shown)):

@@ -18,7 +18,7 @@ from glob import glob
 
 from deck_language import PROGRAMS, language
 
-FOLDERS = "src|tests|docs|inputs|plots|library"
+FOLDERS = "src|tests|docs|inputs|plots|library|make"
 
 
 def read(path):
