@@ -1,7 +1,7 @@
 !> What is asked of a Campbell diagram, and what is found: bands of frozen frequencies, Floquet
 !! frequencies, critical speeds.
 module campbell_types
-  use errors, only: error_t
+  use errors, only: error_t, outcome_t
   use kinds, only: wp
   use stability_types, only: exponent_t
   implicit none (type, external)
@@ -18,8 +18,7 @@ module campbell_types
   end type band_t
 
   !> What is known at a speed of the deck.
-  type :: speed_campbell_t
-    type(error_t), allocatable :: error          !! why there is nothing
+  type, extends(outcome_t) :: speed_campbell_t
     type(band_t), allocatable :: band(:)         !! (modes); none where the linkage frozen in some
                                                  !! position buckles under the axial forces
     type(exponent_t), allocatable :: exponent(:) !! (modes)

@@ -1,7 +1,7 @@
 !> What is asked of the elastic response of a linkage, and what is found.
 module response_types
   use elastic_equations, only: elastic_terms_t
-  use errors, only: error_t
+  use errors, only: outcome_t
   use kinds, only: long, wp
   implicit none (type, external)
   private
@@ -74,8 +74,7 @@ module response_types
   end type peak_t
 
   !> The steady response at one speed. Errors are relative to the largest value over the turn.
-  type :: speed_response_t
-    type(error_t), allocatable :: error             !! why there is none
+  type, extends(outcome_t) :: speed_response_t
     real(wp), allocatable :: displacement(:, :, :)  !! (x, y, rotation; points; positions) [m, rad]
     real(wp), allocatable :: displacement_error(:)  !! (points)
     real(wp), allocatable :: strain(:, :, :)        !! (strain_values, gauges, positions)

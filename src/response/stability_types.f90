@@ -1,7 +1,7 @@
 !> What is asked of the stability of a motion, and what is found.
 module stability_types
   use elastic_equations, only: elastic_terms_t
-  use errors, only: error_t
+  use errors, only: error_t, outcome_t
   use kinds, only: long, wp
   use response_types, only: link_damping_t
   implicit none (type, external)
@@ -42,8 +42,7 @@ module stability_types
   end type exponent_t
 
   !> The exponents at one speed.
-  type :: speed_stability_t
-    type(error_t), allocatable :: error       !! why there are none
+  type, extends(outcome_t) :: speed_stability_t
     type(exponent_t), allocatable :: exponent(:) !! (modes)
     integer :: order = 0                      !! highest polynomial degree
     integer :: samples = 0                    !! over the turn

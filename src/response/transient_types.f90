@@ -1,6 +1,6 @@
 !> What is asked of an elastic motion in time, and what is found.
 module transient_types
-  use errors, only: error_t
+  use errors, only: error_t, outcome_t
   use kinds, only: long, wp
   use motion_programs, only: motion_program_t
   use response_types, only: response_request_t
@@ -28,8 +28,7 @@ module transient_types
   end type transient_request_t
 
   !> The motion at one speed. Errors are relative to the largest value over the run.
-  type :: speed_transient_t
-    type(error_t), allocatable :: error            !! why there is none
+  type, extends(outcome_t) :: speed_transient_t
     type(error_t), allocatable :: strain_fault     !! why its strains are not there
     real(wp), allocatable :: time(:)               !! (instants) [s]
     real(wp), allocatable :: crank(:)              !! (instants), past whole turns [deg]

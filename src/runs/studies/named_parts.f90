@@ -1,13 +1,13 @@
 !> Names in errors of studies, which know the numbers of links and pins only.
 module named_parts
-  use errors, only: error_t
+  use errors, only: error_t, outcome_t
   use kinds, only: wp
   use reach_texts, only: reach_words
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: name_parts
+  public :: name_parts, name_outcomes
 
 contains
 
@@ -33,5 +33,17 @@ contains
       end if
     end associate
   end subroutine name_parts
+
+  !> The same of all errors among outcomes.
+  subroutine name_outcomes(variant, outcomes)
+    type(variant_results_t), intent(in) :: variant     !! its names and units
+    class(outcome_t), intent(inout) :: outcomes(:)
+
+    integer :: i
+
+    do i = 1, size(outcomes)
+      call name_parts(variant, outcomes(i)%error)
+    end do
+  end subroutine name_outcomes
 
 end module named_parts

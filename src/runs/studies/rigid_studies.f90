@@ -17,7 +17,7 @@ module rigid_studies
   use limits_study, only: find_limits
   use linkage_study, only: find_linkage
   use models, only: balances, has_law, model_t, report_number
-  use named_parts, only: name_parts
+  use named_parts, only: name_outcomes
   use points_study, only: find_points
   use position_loads, only: elastic_division_t, fail_everywhere, find_division, take_failures
   use reactions_study, only: find_reactions, reaction_values, reactions_at_speed, torque_value
@@ -83,9 +83,7 @@ contains
       call find_geometry(mechanism%linkage, points%body, reshape([(points(i)%place, i=1, &
         size(points))], [2, size(points)]), model%reports(report_number(model, &
         "geometry"))%crank%value, run%threads, geometry)
-      do i = 1, size(geometry%outcome)
-        call name_parts(run%results, geometry%outcome(i)%error)
-      end do
+      call name_outcomes(run%results, geometry%outcome)
     end associate
   end subroutine compute_geometry
 

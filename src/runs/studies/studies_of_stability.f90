@@ -6,11 +6,11 @@ module studies_of_stability
   use kinds, only: wp
   use mechanisms, only: mechanism_t
   use models, only: accuracy_of_study, model_t, report_number
-  use named_parts, only: name_parts
+  use named_parts, only: name_outcomes, name_parts
   use run_findings, only: failure_t, findings_t
   use stability_study, only: find_intervals_of, find_stability_of
   use stability_types, only: stability_request_t
-  use study_findings, only: note_failure, note_failure_here, note_warning
+  use study_findings, only: note_failed_speeds, note_failure_here, note_warning
   use study_types, only: add_study, study_t, variant_run_t
   use text, only: to_string
   use units, only: from_si
@@ -38,14 +38,10 @@ contains
   subroutine compute_stability(run)
     type(variant_run_t), intent(inout), target :: run
 
-    integer :: k
-
     associate (variant => run%results, stability => run%results%found%stability)
       call find_stability_of(variant%mechanism%structure_t, stability_request_of(variant%model, &
         variant%mechanism), run%threads, run%store, stability)
-      do k = 1, size(stability%at_speed)
-        call name_parts(variant, stability%at_speed(k)%error)
-      end do
+      call name_outcomes(variant, stability%at_speed)
     end associate
   end subroutine compute_stability
 
@@ -53,15 +49,8 @@ contains
     type(variant_results_t), intent(in) :: variant
     type(findings_t), intent(inout) :: findings
 
-    integer :: k
-
-    if (.not. allocated(variant%found%stability%at_speed)) return
-    do k = 1, size(variant%found%stability%at_speed)
-      associate (at_speed => variant%found%stability%at_speed(k))
-        if (allocated(at_speed%error)) call note_failure(variant, "stability", at_speed%error, &
-          findings, speed=k)
-      end associate
-    end do
+    if (allocated(variant%found%stability%at_speed)) call note_failed_speeds(variant, "stability", &
+      variant%found%stability%at_speed, findings)
   end subroutine add_stability_failures
 
   subroutine compute_intervals(run)
@@ -105,14 +94,10 @@ contains
   subroutine compute_campbell(run)
     type(variant_run_t), intent(inout), target :: run
 
-    integer :: k
-
     associate (variant => run%results, campbell => run%results%found%campbell)
       call find_campbell_of(variant%mechanism%structure_t, campbell_request_of(variant%model, &
         variant%mechanism), run%threads, run%store, campbell)
-      do k = 1, size(campbell%at_speed)
-        call name_parts(variant, campbell%at_speed(k)%error)
-      end do
+      call name_outcomes(variant, campbell%at_speed)
     end associate
   end subroutine compute_campbell
 
@@ -120,15 +105,8 @@ contains
     type(variant_results_t), intent(in) :: variant
     type(findings_t), intent(inout) :: findings
 
-    integer :: k
-
-    if (.not. allocated(variant%found%campbell%at_speed)) return
-    do k = 1, size(variant%found%campbell%at_speed)
-      associate (at_speed => variant%found%campbell%at_speed(k))
-        if (allocated(at_speed%error)) call note_failure(variant, "campbell", at_speed%error, &
-          findings, speed=k)
-      end associate
-    end do
+    if (allocated(variant%found%campbell%at_speed)) call note_failed_speeds(variant, "campbell", &
+      variant%found%campbell%at_speed, findings)
   end subroutine add_campbell_failures
 
   pure subroutine add_campbell_warnings(variant, findings)

@@ -1,6 +1,6 @@
 !> Failures and warnings of studies: what all of them have in common.
 module study_findings
-  use errors, only: error_t
+  use errors, only: error_t, outcome_t
   use kinds, only: wp
   use models, only: drives_length, has_law, model_t, speed_in_words
   use run_findings, only: add_failure, add_warning_of_run, failure_t, findings_t
@@ -12,7 +12,7 @@ module study_findings
   implicit none (type, external)
   private
 
-  public :: note_failure, note_at_position, note_failure_here, note_warning
+  public :: note_failure, note_failed_speeds, note_at_position, note_failure_here, note_warning
   public :: most_deflection, judge_deflection, unit_of_positions
 
   !> Largest deflection without a warning, relative to the link's length: equations assume that
@@ -52,6 +52,21 @@ contains
     end if
     call note_failure_here(variant, failure, findings)
   end subroutine note_failure
+
+  !> Appends the speeds at which a study has no result.
+  pure subroutine note_failed_speeds(variant, study, outcomes, findings)
+    type(variant_results_t), intent(in) :: variant
+    character(len=*), intent(in) :: study        !! its name
+    class(outcome_t), intent(in) :: outcomes(:)  !! (speeds)
+    type(findings_t), intent(inout) :: findings  !! to which they are appended
+
+    integer :: k
+
+    do k = 1, size(outcomes)
+      if (allocated(outcomes(k)%error)) call note_failure(variant, study, outcomes(k)%error, &
+        findings, speed=k)
+    end do
+  end subroutine note_failed_speeds
 
   !> Appends a failure at a position of the deck's list; with a law, at an instant of it.
   pure subroutine note_at_position(variant, position, error, findings)

@@ -11,7 +11,7 @@ module study_of_frequencies
   use mechanisms, only: mechanism_t
   use mode_requests, only: drawn_states, mode_request_of
   use models, only: model_t, speed_in_words
-  use named_parts, only: name_parts
+  use named_parts, only: name_outcomes
   use position_results, only: error_of_divergence, error_of_orders, error_of_position, frequency_of
   use positions, only: by_crank_angle, positions_t
   use progress, only: show_progress
@@ -23,7 +23,6 @@ module study_of_frequencies
   use study_types, only: add_study, study_t, variant_run_t
   use sweep_bytes, only: get_result, put_result
   use sweeps, only: has_result, sweep_t
-  use task_journal, only: journal_t
   use tasks, only: run_tasks
   use text, only: plural, to_string
   use text_buffer, only: text_buffer_t
@@ -72,7 +71,6 @@ contains
     type(variant_run_t), intent(inout), target :: run
 
     type(sweep_job_t) :: job
-    type(journal_t) :: no_journal
     integer :: attempt, made
 
     associate (mechanism => run%results%mechanism, positions => run%results%found%positions, &
@@ -86,12 +84,8 @@ contains
         if (allocated(run%error)) return
         if (attempt == 1) sweep%models = job%models
         job%solved = size(positions%states) - size(job%states)
-        if (attempt == 1 .and. associated(run%journal)) then
-          call run_tasks(job, 1, block_count(size(job%states)), threads_of(run), run%journal, &
-            run%group)
-        else
-          call run_tasks(job, 1, block_count(size(job%states)), threads_of(run), no_journal, -1)
-        end if
+        call run_tasks(job, 1, block_count(size(job%states)), threads_of(run), run%journal, &
+          merge(run%group, -1, attempt == 1))
         ! Other ranks do not know which positions are solved again. They are few.
         if (allocated(job%announcement)) deallocate (job%announcement)
         job%states = missed_states(sweep, job%states)
@@ -148,14 +142,11 @@ contains
   subroutine name_links(variant)
     type(variant_results_t), intent(inout) :: variant
 
-    integer :: i, k
+    integer :: i
 
     associate (results => variant%found%sweep%results)
       do i = 1, size(results)
-        if (.not. allocated(results(i)%outcome)) cycle
-        do k = 1, size(results(i)%outcome)
-          call name_parts(variant, results(i)%outcome(k)%error)
-        end do
+        if (allocated(results(i)%outcome)) call name_outcomes(variant, results(i)%outcome)
       end do
     end associate
   end subroutine name_links

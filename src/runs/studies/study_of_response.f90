@@ -5,7 +5,7 @@ module study_of_response
   use mechanisms, only: link_lengths, mechanism_t
   use models, only: accuracy_of_study, model_t, needs_response, report_number, report_with, &
     speed_in_words
-  use named_parts, only: name_parts
+  use named_parts, only: name_outcomes
   use response_parts, only: body_damping_t, damping_none, dampings_of
   use response_study, only: find_response, largest_deflection
   use response_types, only: drive_values, gauge_t, response_point_t, response_request_t, &
@@ -13,7 +13,7 @@ module study_of_response
   use run_findings, only: findings_t
   use run_totals, only: run_totals_t
   use sections, only: outer_distance
-  use study_findings, only: judge_deflection, most_deflection, note_failure, note_warning
+  use study_findings, only: judge_deflection, most_deflection, note_failed_speeds, note_warning
   use study_types, only: add_need, add_study, bytes_of_number, memory_needs_t, study_t, &
     variant_run_t
   use text, only: plural, to_string
@@ -46,14 +46,10 @@ contains
   subroutine compute_response(run)
     type(variant_run_t), intent(inout), target :: run
 
-    integer :: k
-
     associate (variant => run%results, response => run%results%found%response)
       call find_response(variant%mechanism%structure_t, response_request_of(variant%model, &
         variant%mechanism), run%threads, run%store, response)
-      do k = 1, size(response%at_speed)
-        call name_parts(variant, response%at_speed(k)%error)
-      end do
+      call name_outcomes(variant, response%at_speed)
     end associate
   end subroutine compute_response
 
@@ -113,15 +109,8 @@ contains
     type(variant_results_t), intent(in) :: variant
     type(findings_t), intent(inout) :: findings
 
-    integer :: k
-
-    if (.not. allocated(variant%found%response%at_speed)) return
-    do k = 1, size(variant%found%response%at_speed)
-      associate (at_speed => variant%found%response%at_speed(k))
-        if (allocated(at_speed%error)) call note_failure(variant, study_name, at_speed%error, &
-          findings, speed=k)
-      end associate
-    end do
+    if (allocated(variant%found%response%at_speed)) call note_failed_speeds(variant, study_name, &
+      variant%found%response%at_speed, findings)
   end subroutine add_response_failures
 
   pure subroutine add_response_warnings(variant, findings)

@@ -3,7 +3,7 @@ module study_of_transient
   use kinds, only: wp
   use mechanisms, only: link_lengths, mechanism_t
   use models, only: has_gauge_histories, has_law, model_t, report_number, speed_in_words
-  use named_parts, only: name_parts
+  use named_parts, only: name_outcomes
   use run_findings, only: findings_t
   use study_findings, only: judge_deflection, most_deflection, note_failure, note_warning
   use study_of_response, only: add_places, response_request_of
@@ -31,14 +31,10 @@ contains
   subroutine compute_transient(run)
     type(variant_run_t), intent(inout), target :: run
 
-    integer :: k
-
     associate (variant => run%results, transient => run%results%found%transient)
       call find_transients(variant%mechanism%structure_t, transient_request_of(variant%model, &
         variant%mechanism), run%store, transient)
-      do k = 1, size(transient%at_speed)
-        call name_parts(variant, transient%at_speed(k)%error)
-      end do
+      call name_outcomes(variant, transient%at_speed)
     end associate
   end subroutine compute_transient
 
