@@ -37,6 +37,7 @@ module rigid_studies
 
 contains
 
+  !> Appends the studies of this file.
   subroutine add_rigid_studies(list)
     type(study_t), allocatable, intent(inout) :: list(:) !! to which they are appended
 

@@ -24,6 +24,7 @@ module studies_of_stability
 
 contains
 
+  !> Appends the studies of this file.
   subroutine add_stability_studies(list)
     type(study_t), allocatable, intent(inout) :: list(:) !! to which they are appended
 

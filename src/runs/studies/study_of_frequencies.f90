@@ -57,6 +57,7 @@ module study_of_frequencies
 
 contains
 
+  !> Appends the study of this file.
   subroutine add_frequency_study(list)
     type(study_t), allocatable, intent(inout) :: list(:) !! to which they are appended
 

@@ -10,6 +10,7 @@ module study_of_loci
 
 contains
 
+  !> Appends the study of this file.
   subroutine add_loci_study(list)
     type(study_t), allocatable, intent(inout) :: list(:) !! to which they are appended
 

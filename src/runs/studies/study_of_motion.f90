@@ -29,6 +29,7 @@ module study_of_motion
 
 contains
 
+  !> Appends the study of this file.
   subroutine add_motion_study(list)
     type(study_t), allocatable, intent(inout) :: list(:) !! to which they are appended
 

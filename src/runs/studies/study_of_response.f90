@@ -35,6 +35,7 @@ module study_of_response
 
 contains
 
+  !> Appends the study of this file.
   subroutine add_response_study(list)
     type(study_t), allocatable, intent(inout) :: list(:) !! to which they are appended
 

@@ -21,6 +21,7 @@ module study_of_transient
 
 contains
 
+  !> Appends the study of this file.
   subroutine add_transient_study(list)
     type(study_t), allocatable, intent(inout) :: list(:) !! to which they are appended
 
