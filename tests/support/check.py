@@ -39,7 +39,12 @@ SLOW_TESTS = [module + " " for module in (
     "test_transient_motions", "test_campbell", "test_critical_speeds", "test_response_study", "test_frequency_study", "test_held_ends",
     "test_slow_motions", "test_stability", "test_crank_limits")]  # unit tests that hold one of these
 # Seconds of jobs that take more than others: these are begun first, or one processor would wait for another in the end.
-SECONDS = {}
+SECONDS = {"unit_tests debug": 22, "unit_tests release": 8, "script release figures": 257, "numbers_of_documents": 108, "script release memory": 96,
+           "script release parts": 84, "script release interruption": 83, "random_linkages": 80, "script release tables": 78,
+           "script release summary": 76, "script release figure_extents": 75, "script release flexmech_plot": 73, "script release mpi": 64,
+           "script release job_scripts": 54, "script release resume": 51, "script release running": 49, "script release stability": 39,
+           "vibrations": 38, "script release failed_variants": 28, "goldens": 28, "assemblies": 26, "script release deck_files": 21,
+           "script release options": 19, "script release csv": 16, "script release echo_deck": 13, "script release response": 11}
 # The C library has other sin, cos and exp for other processors; without all of these it has those of the oldest.
 OLDEST = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX512F,-AVX512DQ,-AVX512BW,-AVX512VL,-AVX2,-FMA,-FMA4"}
 
