@@ -1,5 +1,6 @@
 !> Studies of the rigid linkage: kinematics, forces, balance, limits.
 module rigid_studies
+  use attached_parts, only: body_point_t
   use balance_requests, only: balance_request_of
   use balance_study, only: balance_request_t, find_balance, find_hung_balance
   use drive_motions, only: drive_rates
@@ -77,13 +78,10 @@ contains
   subroutine compute_geometry(run)
     type(variant_run_t), intent(inout), target :: run
 
-    integer :: i
-
     associate (model => run%results%model, mechanism => run%results%mechanism, &
         points => run%results%mechanism%points, geometry => run%results%found%geometry)
-      call find_geometry(mechanism%linkage, points%body, reshape([(points(i)%place, i=1, &
-        size(points))], [2, size(points)]), model%reports(report_number(model, &
-        "geometry"))%crank%value, run%threads, geometry)
+      call find_geometry(mechanism%linkage, points%body, places_of(points), &
+        model%reports(report_number(model, "geometry"))%crank%value, run%threads, geometry)
       call name_outcomes(run%results, geometry%outcome)
     end associate
   end subroutine compute_geometry
@@ -91,14 +89,24 @@ contains
   subroutine compute_points(run)
     type(variant_run_t), intent(inout), target :: run
 
-    integer :: i
-
     associate (mechanism => run%results%mechanism, points => run%results%mechanism%points, &
         found => run%results%found)
-      call find_points(mechanism%linkage, points%body, reshape([(points(i)%place, i=1, &
-        size(points))], [2, size(points)]), found%positions, run%threads, found%points)
+      call find_points(mechanism%linkage, points%body, places_of(points), found%positions, &
+        run%threads, found%points)
     end associate
   end subroutine compute_points
+
+  !> Places of points, from the first pins of their bodies, in their axes [m].
+  pure function places_of(points) result(places)
+    type(body_point_t), intent(in) :: points(:)
+    real(wp) :: places(2, size(points))
+
+    integer :: i
+
+    do i = 1, size(points)
+      places(:, i) = points(i)%place
+    end do
+  end function places_of
 
   subroutine compute_inertia(run)
     type(variant_run_t), intent(inout), target :: run
