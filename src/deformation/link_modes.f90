@@ -27,8 +27,7 @@ module link_modes
   implicit none (type, external)
   private
 
-  public :: link_modes_t, held_shapes, coupled_shapes, new_link_modes, curve_rotations, rigid, &
-    stations
+  public :: link_modes_t, held_shapes, coupled_shapes, new_link_modes, rigid, stations
 
   !> Number of the first row of slopes: that of the chord; curves of held ends and own modes follow.
   integer, parameter :: rigid = 1

@@ -24,8 +24,7 @@ module frequency_report
   implicit none (type, external)
   private
 
-  public :: describe_frequencies, describe_shapes, drawn_rows, effects_notes, is_drawn, &
-    shown_speed
+  public :: describe_frequencies, describe_shapes, effects_notes, is_drawn, shown_speed
 
   !> `frequencies.dat`.
   type, extends(position_table_t) :: frequency_table_t

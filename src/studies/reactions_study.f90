@@ -10,8 +10,8 @@ module reactions_study
   implicit none (type, external)
   private
 
-  public :: reactions_result_t, find_reactions, reactions_at_speed, reaction_values, &
-    pin_forces, pin_forces_of, torque_value, shaking_values
+  public :: reactions_result_t, find_reactions, reactions_at_speed, reaction_values, pin_forces, &
+    torque_value, shaking_values
 
   !> Places of the values of `reactions_at_speed`: up to `pin_forces` x and y of the force on every
   !! body at its first and at its last pin, then driving torque, shaking force and shaking moment.

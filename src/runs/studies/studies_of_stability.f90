@@ -20,7 +20,7 @@ module studies_of_stability
   private
 
   public :: add_stability_studies
-  public :: stability_request_of, intervals_request_of, campbell_request_of
+  public :: stability_request_of, campbell_request_of
 
 contains
 

@@ -15,7 +15,7 @@ module study_of_transient
   implicit none (type, external)
   private
 
-  public :: add_transient_study, transient_request_of
+  public :: add_transient_study
 
   character(len=*), parameter :: study_name = "transient"
 
