@@ -6,7 +6,7 @@ vpath %.f90 $(sort $(dir $(program_sources)))
 $(shell mkdir -p $(build)/programs && makedepf90 -b '$$(build)/programs' $(program_sources) > $(build)/programs/dependencies.mk)
 include $(build)/programs/dependencies.mk
 
-$(build)/programs/%.o: %.f90 $(build)/command $(modules)
+$(build)/programs/%.o: %.f90 $(build)/command $(modules) $(build)/four_bars.o
 	@echo "$(FC) ($(kind)) $<"
 	$(compile) -ffree-line-length-132 $(warnings_$(kind)) -J$(@D) -I$(build) -c $< -o $@
 
@@ -17,7 +17,7 @@ $(build)/stress/responses:  $(call from,stress_responses,tests/stress/responses)
 $(build)/stress/stability:  $(call from,stress_stability,tests/stress/responses)
 $(build)/stress/read_words: $(call from,read_words)
 build/scaling/record_tasks: $(call from,record_tasks,tests/scaling)
-$(build)/bench/bench $(build)/stress/responses $(build)/stress/stability $(build)/stress/read_words build/scaling/record_tasks: $(modules)
+$(build)/bench/bench $(build)/stress/responses $(build)/stress/stability $(build)/stress/read_words build/scaling/record_tasks: $(modules) $(build)/four_bars.o
 	@echo "link $@"
 	mkdir -p $(@D)
 	$(compile) $^ $(libraries) -o $@

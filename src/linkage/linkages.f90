@@ -1,7 +1,7 @@
 !> A planar linkage in terms of mechanics: pins, bodies between them, sliders, drives, and the
 !! groups in which it is placed, moved and solved.
 !!
-!! Everything but `new_four_bar` works for any linkage. The groups are found by `assembly_plan`.
+!! The groups are found by `assembly_plan`.
 !! Most are dyads: two bodies that meet in a pin, each attached to a pin whose motion is already
 !! known.
 module linkages
@@ -13,7 +13,7 @@ module linkages
 
   public :: linkage_t, body_t, body_pin_t, lump_t, forced_place_t, slider_t, turn_t, drive_t, &
     drawing_t, equation_t, group_t, path_t, bridge_t, shaft_t
-  public :: new_four_bar, mobility, reference_point, is_dyad_linkage, cross, normal_to, turned, &
+  public :: mobility, reference_point, is_dyad_linkage, cross, normal_to, turned, &
     turned_back
   public :: drives_nothing, drives_angle, drives_slider, drives_length
   public :: changes_through, changes_stop, changes_branch
@@ -247,49 +247,6 @@ module linkages
   end type linkage_t
 
 contains
-
-  !> The four-bar O2–A–B–O4 without loads: pins 1 to 4, bodies crank, coupler, follower. The
-  !! follower's angle is that of O4 → B.
-  pure function new_four_bar(ground, length, line_density, pin_mass, crossed) result(linkage)
-    real(wp), intent(in) :: ground(2, 2)    !! O2 and O4 [m]
-    real(wp), intent(in) :: length(3)       !! crank, coupler, follower [m]
-    real(wp), intent(in) :: line_density(3) !! crank, coupler, follower [kg/m]
-    real(wp), intent(in) :: pin_mass(2)     !! at A and B [kg]
-    logical, intent(in) :: crossed          !! B to the right of A → O4; else to its left
-    type(linkage_t) :: linkage
-
-    integer :: i
-
-    linkage%is_ground = [.true., .false., .false., .true.]
-    allocate (linkage%pin_force(2, 4), linkage%couple(3))
-    linkage%pin_force = 0.0_wp
-    linkage%couple = 0.0_wp
-    allocate (linkage%ground_position(2, 4))
-    linkage%ground_position = 0.0_wp
-    linkage%ground_position(:, 1) = ground(:, 1)
-    linkage%ground_position(:, 4) = ground(:, 2)
-    linkage%pin_mass = [0.0_wp, pin_mass, 0.0_wp]
-    ! An array constructor would leak the memory of the lumps in gfortran 12.
-    allocate (linkage%bodies(3))
-    do i = 1, 3
-      linkage%bodies(i)%first_pin = i
-      linkage%bodies(i)%last_pin = i + 1
-      linkage%bodies(i)%length = length(i)
-      linkage%bodies(i)%line_density = line_density(i)
-      if (i == 3) linkage%bodies(i)%heading = [-1.0_wp, 0.0_wp]
-      allocate (linkage%bodies(i)%lumps(0), linkage%bodies(i)%further(0))
-    end do
-    allocate (linkage%sliders(0), linkage%turns(0), linkage%drives(1), linkage%groups(1), &
-      linkage%redundancies(0), linkage%loads(0))
-    linkage%drives(1)%body = 1
-    linkage%groups(1)%base = [2, 4]
-    linkage%groups(1)%body = [2, 3]
-    linkage%groups(1)%middle = 3
-    linkage%groups(1)%side = merge(-1.0_wp, 1.0_wp, crossed)
-    allocate (linkage%drawing%is_drawn(4), linkage%drawing%pin(2, 4))
-    linkage%drawing%is_drawn = .false.
-    linkage%drawing%pin = 0.0_wp
-  end function new_four_bar
 
   !> Degrees of freedom by counting: `3(n − 1) − 2j` for n links with the ground and j pins of two
   !! links each (Grübler, Kutzbach). A pin where k links meet counts as k − 1 pins.

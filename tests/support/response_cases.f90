@@ -6,12 +6,13 @@ module response_cases
   use deformation_model, only: deformation_model_t, new_deformation_model
   use elastic_equations, only: elastic_terms_t, functions_of, load_at_speed
   use errors, only: error_t
+  use four_bars, only: new_four_bar
   use fourier_transform, only: close_fourier, derivatives, fourier_plan_t, open_fourier
   use kinds, only: long, wp
   use legendre, only: gauss_rule
   use link_degrees, only: link_degrees_t, uniform_degrees
   use link_rows, only: displacement_rows, strain_rows, strain_rows_t
-  use linkages, only: body_t, lump_t, new_four_bar
+  use linkages, only: body_t, lump_t
   use periodic_solver, only: solve_periodic
   use response_types, only: gauge_t, link_damping_t, link_section_t, response_point_t, response_request_t
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_motion_t

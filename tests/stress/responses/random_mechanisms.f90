@@ -1,8 +1,9 @@
 !> Random mechanisms with all that a deck can hold for the elastic response.
 module random_mechanisms
   use constants, only: pi, two_pi
+  use four_bars, only: new_four_bar
   use kinds, only: wp
-  use linkages, only: linkage_t, lump_t, new_four_bar
+  use linkages, only: linkage_t, lump_t
   use random_numbers, only: generator_t, happens, new_generator, one_of, power, uniform
   use response_types, only: damping_ratio, damping_time, gauge_t, response_point_t, response_request_t
   use structures, only: structure_t
