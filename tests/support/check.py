@@ -21,11 +21,13 @@ import sys
 from glob import glob
 
 import compare_tables
+import table_tests
 
 SCRATCH = os.path.join("build", "check")
 COUNT = os.path.join("build", "check.count")
 LONGEST = 3600  # seconds; a test that takes longer hangs, on a busy machine too
 SHARES = 24    # of the unit tests: the program is run so many times, each time with other modules
+TABLE_SHARES = 4  # of the decks of tests/tables/
 
 # `make check` is to take eight minutes on two processors, and compiling the program and the tests takes six of them. So it compiles one
 # build, as users have it, and what is below, and all of the debug build, wait for `make check-all`.
@@ -235,6 +237,18 @@ def refused_decks(build):
     group.end()
 
 
+def expected_tables(build, share):
+    """The decks of tests/tables/ have the tables and messages that are expected."""
+    group = Group(f"expected tables, {build}", TABLE_SHARES)
+    if share == 0:
+        group.result("table_tests.py --self-check", "\n".join(table_tests.self_check()) or None)
+        group.result("tests/tables", "\n".join(table_tests.unused_decks()) or None)
+    for name in table_tests.names_of_tests()[share::TABLE_SHARES]:
+        for place, why in table_tests.results(name, program(build), fresh("expected", build, name)):
+            group.result(place, why)
+    group.end()
+
+
 def random_linkages():
     """Random linkages against independent solvers, and against themselves described otherwise; `make check-all` compares more."""
     group = Group("random linkages, release")
@@ -383,6 +397,7 @@ def seconds_of(job):
 def jobs_of_release(tests):
     """Tests of the release build but for scripts."""
     jobs = unit_test_jobs("release", tests) + [(assertions, "release", tests), (refused_decks, "release"), (goldens, "release", "quick")]
+    jobs += [(expected_tables, "release", share) for share in range(TABLE_SHARES)]
     return jobs + [(test,) for test in (layers, documents, numbers_of_documents, threads, random_linkages, vibrations, published_cases, assemblies)]
 
 
@@ -401,6 +416,7 @@ def main(tests, slow):
         jobs += [(script, "debug", name) for name in names]
         # pFUnit's own comparison of a NaN raises the exception that the debug build traps.
         jobs += [(assertions, "debug", tests)] if tests.startswith("funit") else []
+        jobs += [(expected_tables, "debug", share) for share in range(TABLE_SHARES)]
         jobs += [(refused_decks, "debug"), (goldens, "release", "slow"), (goldens, "release", "all", OLDEST), (goldens, "debug", "all")]
     else:
         jobs += [(script, "release", name) for name in names if name not in SLOW_GROUPS]
