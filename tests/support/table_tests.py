@@ -100,8 +100,8 @@ class Table:
             empty = 0
             if line[0] != "#":
                 words = line.split()
-                if len(words) != len(self.names):
-                    raise Fault(f"{len(words)} cells in a row, {len(self.names)} columns")
+                if len(words) != len(self.names) or len(line) != len(lines[end - 1]):
+                    raise Fault(f"a row is not as its head: '{line}'")
                 self.rows.append({name + "_"*keyword.iskeyword(name): word_of(word) for name, word in zip(self.names, words)})
         self.shape += str(empty) if empty else ""
 
@@ -221,7 +221,7 @@ def fits(row, wanted):
 def evaluate(text, names):
     try:
         return eval(text, {"__builtins__": {}, **names})  # of the files of this repository
-    except (NameError, AttributeError, KeyError, SyntaxError, TypeError, ValueError, ZeroDivisionError) as error:
+    except (NameError, AttributeError, IndexError, KeyError, SyntaxError, TypeError, ValueError, ZeroDivisionError) as error:
         raise Fault(f"'{text.strip()}': {error!r}") from error
 
 
@@ -271,11 +271,13 @@ def check_claims(rows, kind, where, text):
             except NoNeighbour:
                 continue
             compared += 1
-            if within and found[2] == "=":
-                right_so = abs(left - right) <= bound
+            if isinstance(left, str) != isinstance(right, str):
+                raise Fault(f"{found[1]} is {left!r}, and {found[3]} is {right!r}")
+            if within and found[2] == "=" and not isinstance(left, str):
+                met = abs(left - right) <= bound
             else:
-                right_so = OPERATORS[found[2]](left, right)
-            if not right_so:
+                met = OPERATORS[found[2]](left, right)
+            if not met:
                 raise Fault(f"{'' if i is None else f'row {i + 1}: '}{found[1]} is {left}, and {found[3]} is {right}"
                             + (f", within {bound:.3g}" if within else ""))
     if not compared:
@@ -438,7 +440,7 @@ def unused_decks():
     return sorted({os.path.splitext(os.path.basename(path))[0] for path in glob(os.path.join(FOLDER, "*.deck"))} - used)
 
 
-SAMPLE = "# a note\n# x name y from\n# mm - mm s\n# failed x=9 : lost\n1.0 A 2.0 0\n\n2.0 B 4.0 1\n3.0 C 6.0 0\n"
+SAMPLE = "# a note\n# x name y from\n# mm  - mm s\n# failed x=9 : lost\n 1.0 A 2.0 0\n\n 2.0 B 4.0 1\n 3.0 C 6.0 0\n"
 RIGHT = ["note a note", "note a ...", "no note b", "columns x name y from", "units mm - mm s", "rows 3", "shape fr1rr",
          "failed x=9 : lost", "list name = A B C", "list from_ of ::2 = 0 0", "each: y = 2*x", "at name=B: y = 4; x = 2",
          "at name=B: y = 4.1 within 0.11", "row 3: y = 6.3 within 0.06 of 6", 'whole: total("y") = 12; largest("x", "y") = 6',
