@@ -11,6 +11,7 @@ A line of NAME.expected says one thing; behind ` ! ` stands where a value comes 
     + CARD                             one more card
     - WORDS | WORDS                    without the cards that begin so
     ~ OLD -> NEW                       other words
+    take CARD of RUN TABLE             the cards that the head of a table gives
     status N                           the exit status, else 0
     says TEXT, silent                  on standard error; of several `says` all
     [no] log TEXT                      a line of run.log
@@ -318,6 +319,12 @@ class Expectations:
             self.begin_run(rest)
         elif word in "+-~":
             self.run.change(word, rest)
+        elif word == "take":
+            card, run, table = re.fullmatch(r"(\S+) of (\S+) (\S+)", rest).groups()
+            cards = [note for note in self.runs[run].table(table).notes if note.startswith(card + " ")]
+            if not cards:
+                raise Fault(f"{table} gives no {card}")
+            self.run.deck += cards
         elif word == "status":
             self.run.status = int(rest)
             self.run.make()
@@ -418,7 +425,7 @@ class Expectations:
             except Fault as fault:
                 yield f"tests/tables/{self.name}.expected:{number}", f"{line}\n  {fault}"
                 # Without the deck or the table nothing that follows makes sense.
-                lost = word in ("run", "+", "-", "~", "status", "table", "beside", "with")
+                lost = word in ("run", "+", "-", "~", "take", "status", "table", "beside", "with")
 
 
 def results(name, program, folder):
