@@ -8,7 +8,7 @@ A line of NAME.expected says one thing; behind ` ! ` stands where a value comes 
 
     run NAME [deck OTHER] [like RUN]   a deck: NAME.deck if there is one, or OTHER.deck, with the changes of another run; what comes
                                        before the first such line is of NAME.deck itself
-    + CARD                             one more card
+    + CARD                             one more card, with {RUN TABLE EXPRESSION} for a value that another run has
     - WORDS | WORDS                    without the cards that begin so
     ~ OLD -> NEW                       other words
     take CARD of RUN TABLE             the cards that the head of a table gives
@@ -33,7 +33,7 @@ Of a table, which `table NAME` chooses:
 TEXT may hold `...` for anything. ROWS are `column=value`, or `where EXPRESSION`. A CLAIM is LEFT = RIGHT, or with < <= > >=;
 without a tolerance every digit counts. `{a b}` in a claim stands for one claim with each of these words, which `{}` repeats;
 `{*}` is all columns of numbers that both tables have. Expressions are Python's, of the columns (`from_`, where Python has the
-word), functions of math, `degree`, `number` (of the row), `notes` and:
+word), functions of math, `degree`, `number` (of the row), `notes`, `units`, `shape` and:
 
     column("a"), largest("a", "b"), least("a"), greatest("a"), total("a"), mean("a"), rows()
                                        over the rows, or those with column=value
@@ -204,7 +204,7 @@ class Rows:
         return (8*(c - b) - (d - a))/(12*step)
 
     def names_at(self, index):
-        names = {**MATHS, **self.functions, "notes": self.tables[""].notes}
+        names = {**MATHS, **self.functions, "notes": self.tables[""].notes, "units": self.tables[""].units, "shape": self.tables[""].shape}
         if index is not None:
             self.here = index
             for name, table in self.beside.items():
@@ -318,7 +318,7 @@ class Expectations:
         if word == "run":
             self.begin_run(rest)
         elif word in "+-~":
-            self.run.change(word, rest)
+            self.run.change(word, re.sub(r"\{(\S+) (\S+) ([^}]+)\}", self.value_of_run, rest))
         elif word == "take":
             card, run, table = re.fullmatch(r"(\S+) of (\S+) (\S+)", rest).groups()
             cards = [note for note in self.runs[run].table(table).notes if note.startswith(card + " ")]
@@ -342,6 +342,10 @@ class Expectations:
             self.expect(word, rest)
             return True
         return False
+
+    def value_of_run(self, found):
+        run, table, expression = found.groups()
+        return repr(evaluate(expression, Rows(self.runs[run].table(table), {}, {}).names_at(None)))
 
     def expect(self, word, rest):
         without = word == "no"
