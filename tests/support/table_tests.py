@@ -59,7 +59,7 @@ FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tables"
 OPERATORS = {"=": lambda a, b: a == b, "<": lambda a, b: a < b, "<=": lambda a, b: a <= b, ">": lambda a, b: a > b,
              ">=": lambda a, b: a >= b}
 MATHS = {name: getattr(math, name) for name in dir(math) if not name.startswith("_")}
-MATHS.update((function.__name__, function) for function in (abs, all, any, int, len, max, min, round, sorted, str, sum, zip))
+MATHS.update((function.__name__, function) for function in (abs, all, any, float, int, len, max, min, round, sorted, str, sum, zip))
 MATHS["degree"] = math.pi/180
 
 
@@ -103,6 +103,8 @@ class Table:
                 words = line.split()
                 if len(words) != len(self.names) or len(line) != len(lines[end - 1]):
                     raise Fault(f"a row is not as its head: '{line}'")
+                if re.search(r"(?i)(?<!\S)[-+]?(n0?an|inf|infinity)(?!\S)", line):
+                    raise Fault(f"no numbers: '{line}'")
                 self.rows.append({name + "_"*keyword.iskeyword(name): word_of(word) for name, word in zip(self.names, words)})
         self.shape += str(empty) if empty else ""
 
