@@ -13,7 +13,8 @@ A line of NAME.expected says one thing; behind ` ! ` stands where a value comes 
     ~ OLD -> NEW                       other words
     take CARD of RUN TABLE             the cards that the head of a table gives
     status N                           the exit status, else 0
-    says TEXT, silent                  on standard error; of several `says` all
+    check N                            the deck is checked only (--check), and the exit status is N
+    [no] says TEXT, silent             on standard error; of several `says` all
     [no] log TEXT                      a line of run.log
     writes TABLE ...                   all tables of the run
 
@@ -114,7 +115,7 @@ class Run:
 
     def __init__(self, name, deck, folder, program):
         self.name, self.deck, self.folder, self.program = name, deck, folder, program
-        self.status, self.done, self.tables = 0, None, {}
+        self.status, self.options, self.done, self.tables = 0, ["--quiet", "--threads", "1", "--out", "out"], None, {}
 
     def change(self, sign, text):
         if sign == "+":
@@ -137,8 +138,8 @@ class Run:
         if self.done is None:
             with open(os.path.join(self.folder, self.name + ".deck"), "w", encoding="utf-8") as file:
                 file.write("\n".join(self.deck) + "\n")
-            self.done = subprocess.run([self.program, "--quiet", "--threads", "1", "--out", "out", self.name + ".deck"],
-                                       cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
+            self.done = subprocess.run([self.program, *self.options, self.name + ".deck"], cwd=self.folder,
+                                       stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
                                        timeout=3600, check=False)
         if self.done.returncode != self.status:
             raise Fault(f"status {self.done.returncode}, not {self.status}: {self.done.stderr.strip()}")
@@ -206,7 +207,8 @@ class Rows:
         return (8*(c - b) - (d - a))/(12*step)
 
     def names_at(self, index):
-        names = {**MATHS, **self.functions, "notes": self.tables[""].notes, "units": self.tables[""].units, "shape": self.tables[""].shape}
+        table = self.tables[""]
+        names = {**MATHS, **self.functions, "notes": table.notes, "units": table.units, "shape": table.shape}
         if index is not None:
             self.here = index
             for name, table in self.beside.items():
@@ -327,8 +329,10 @@ class Expectations:
             if not cards:
                 raise Fault(f"{table} gives no {card}")
             self.run.deck += cards
-        elif word == "status":
+        elif word in ("check", "status"):
             self.run.status = int(rest)
+            if word == "check":
+                self.run.options = ["--check"]
             self.run.make()
             return True
         elif word == "table":
@@ -431,7 +435,7 @@ class Expectations:
             except Fault as fault:
                 yield f"tests/tables/{self.name}.expected:{number}", f"{line}\n  {fault}"
                 # Without the deck or the table nothing that follows makes sense.
-                lost = word in ("run", "+", "-", "~", "take", "status", "table", "beside", "with")
+                lost = word in ("run", "+", "-", "~", "take", "check", "status", "table", "beside", "with")
 
 
 def results(name, program, folder):
