@@ -21,6 +21,7 @@ import sys
 from glob import glob
 
 import compare_tables
+import report_tests
 import table_tests
 
 SCRATCH = os.path.join("build", "check")
@@ -33,10 +34,10 @@ TABLE_SHARES = 4  # of the decks of tests/tables/
 # build, as users have it, and what is below, and all of the debug build, wait for `make check-all`.
 SLOW_DECKS = ["campbell", "damped_engine", "stability", "strains", "transient"]  # of inputs/
 SLOW_GROUPS = ["bench", "failed_variants", "figure_extents", "figures", "flexmech_plot", "interruption", "job_scripts", "memory", "mpi",
-               "numbers_of_documents", "parts", "random_linkages", "resume", "running", "stability", "summary", "threads",
+               "numbers_of_documents", "parts", "random_linkages", "reports", "resume", "running", "stability", "summary", "threads",
                "vibrations"]  # scripts and procedures below
 SLOW_TESTS = [module + " " for module in (
-    "test_instability_intervals", "test_damped_eigensolver", "test_report_table_rows", "test_transient_responses", "test_path_grids",
+    "test_instability_intervals", "test_damped_eigensolver", "test_transient_responses", "test_path_grids",
     "test_exact_frequencies", "test_steady_responses", "test_campbell_study", "test_deformation_model", "test_order_errors",
     "test_transient_motions", "test_campbell", "test_critical_speeds", "test_response_study", "test_frequency_study", "test_held_ends",
     "test_slow_motions", "test_stability", "test_crank_limits")]  # unit tests that hold one of these
@@ -249,6 +250,14 @@ def expected_tables(build, share):
     group.end()
 
 
+def reports(build):
+    """All tables that --help-cards promises."""
+    group = Group(f"reports, {build}")
+    for name, why in report_tests.results(program(build), fresh("reports", build)):
+        group.result(name, why)
+    group.end()
+
+
 def random_linkages():
     """Random linkages against independent solvers, and against themselves described otherwise; `make check-all` compares more."""
     group = Group("random linkages, release")
@@ -397,7 +406,7 @@ def seconds_of(job):
 def jobs_of_release(tests):
     """Tests of the release build but for scripts."""
     jobs = unit_test_jobs("release", tests) + [(assertions, "release", tests), (refused_decks, "release"), (goldens, "release", "quick")]
-    jobs += [(expected_tables, "release", share) for share in range(TABLE_SHARES)]
+    jobs += [(expected_tables, "release", share) for share in range(TABLE_SHARES)] + [(reports, "release")]
     return jobs + [(test,) for test in (layers, documents, numbers_of_documents, threads, random_linkages, vibrations, published_cases, assemblies)]
 
 
@@ -416,7 +425,7 @@ def main(tests, slow):
         jobs += [(script, "debug", name) for name in names]
         # pFUnit's own comparison of a NaN raises the exception that the debug build traps.
         jobs += [(assertions, "debug", tests)] if tests.startswith("funit") else []
-        jobs += [(expected_tables, "debug", share) for share in range(TABLE_SHARES)]
+        jobs += [(expected_tables, "debug", share) for share in range(TABLE_SHARES)] + [(reports, "debug")]
         jobs += [(refused_decks, "debug"), (goldens, "release", "slow"), (goldens, "release", "all", OLDEST), (goldens, "debug", "all")]
     else:
         jobs += [(script, "release", name) for name in names if name not in SLOW_GROUPS]
