@@ -8,7 +8,8 @@ A line of NAME.expected says one thing; behind ` ! ` stands where a value comes 
 
     run NAME [deck OTHER] [like RUN]   a deck: NAME.deck if there is one, or OTHER.deck, with the changes of another run; what comes
                                        before the first such line is of NAME.deck itself
-    + CARD                             one more card, with {RUN TABLE EXPRESSION} for a value that another run has
+    let NAME = EXPRESSION              for {EXPRESSION} in cards, in which `of(RUN, TABLE)` has the functions below of another run
+    + CARD | CARD                      more cards
     - WORDS | WORDS                    without the cards that begin so
     ~ OLD -> NEW                       other words
     take CARD of RUN TABLE             the cards that the head of a table gives
@@ -114,12 +115,12 @@ class Run:
     """A deck and what the program makes of it; it is run when a table or a message is asked for."""
 
     def __init__(self, name, deck, folder, program):
-        self.name, self.deck, self.folder, self.program = name, deck, folder, program
+        self.name, self.deck, self.folder, self.program, self.names = name, deck, folder, program, {}
         self.status, self.options, self.done, self.tables = 0, ["--quiet", "--threads", "1", "--out", "out"], None, {}
 
     def change(self, sign, text):
         if sign == "+":
-            self.deck.append(text)
+            self.deck += text.split(" | ")
         elif sign == "-":
             for words in text.split(" | "):
                 left = [card for card in self.deck if not card.startswith(words)]
@@ -137,13 +138,17 @@ class Run:
         """The finished process; the deck is run once."""
         if self.done is None:
             with open(os.path.join(self.folder, self.name + ".deck"), "w", encoding="utf-8") as file:
-                file.write("\n".join(self.deck) + "\n")
+                file.write("".join(re.sub(r"\{([^}]+)\}", self.value, card) + "\n" for card in self.deck))
             self.done = subprocess.run([self.program, *self.options, self.name + ".deck"], cwd=self.folder,
                                        stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
                                        timeout=3600, check=False)
         if self.done.returncode != self.status:
             raise Fault(f"status {self.done.returncode}, not {self.status}: {self.done.stderr.strip()}")
         return self.done
+
+    def value(self, found):
+        value = evaluate(found[1], {**MATHS, **self.names})
+        return value if isinstance(value, str) else repr(value)
 
     def path(self, name):
         self.make()
@@ -310,6 +315,7 @@ class Expectations:
         options = dict(zip(words[1::2], words[2::2]))
         base = self.runs[options["like"]].deck if "like" in options else self.deck(options.get("deck", self.name))
         self.run = self.runs[words[0]] = Run(words[0], list(base), self.folder, self.program)
+        self.run.names = {"of": self.functions_of, **(self.runs[options["like"]].names if "like" in options else {})}
         self.chosen, self.beside, self.others = None, {}, {}
 
     def follow(self, line):
@@ -322,7 +328,10 @@ class Expectations:
         if word == "run":
             self.begin_run(rest)
         elif word in "+-~":
-            self.run.change(word, re.sub(r"\{(\S+) (\S+) ([^}]+)\}", self.value_of_run, rest))
+            self.run.change(word, rest)
+        elif word == "let":
+            name, _, expression = rest.partition(" = ")
+            self.run.names[name] = evaluate(expression, {**MATHS, **self.run.names})
         elif word == "take":
             card, run, table = re.fullmatch(r"(\S+) of (\S+) (\S+)", rest).groups()
             cards = [note for note in self.runs[run].table(table).notes if note.startswith(card + " ")]
@@ -349,9 +358,8 @@ class Expectations:
             return True
         return False
 
-    def value_of_run(self, found):
-        run, table, expression = found.groups()
-        return repr(evaluate(expression, Rows(self.runs[run].table(table), {}, {}).names_at(None)))
+    def functions_of(self, run, table):
+        return SimpleNamespace(**Rows(self.runs[run].table(table), {}, {}).functions)
 
     def expect(self, word, rest):
         without = word == "no"
@@ -435,7 +443,7 @@ class Expectations:
             except Fault as fault:
                 yield f"tests/tables/{self.name}.expected:{number}", f"{line}\n  {fault}"
                 # Without the deck or the table nothing that follows makes sense.
-                lost = word in ("run", "+", "-", "~", "take", "check", "status", "table", "beside", "with")
+                lost = word in ("run", "let", "+", "-", "~", "take", "check", "status", "table", "beside", "with")
 
 
 def results(name, program, folder):
