@@ -9,6 +9,7 @@ A line of NAME.expected says one thing; behind ` ! ` stands where a value comes 
     run NAME [deck OTHER] [like RUN]   a deck: NAME.deck if there is one, or OTHER.deck, with the changes of another run; what comes
                                        before the first such line is of NAME.deck itself
     let NAME = EXPRESSION              for {EXPRESSION} in cards, in which `of(RUN, TABLE)` has the functions below of another run
+                                       and `turned(x, y)` is a vector mirrored (side = -1) and turned by angle
     + CARD | CARD                      more cards
     - WORDS | WORDS                    without the cards that begin so
     ~ OLD -> NEW                       other words
@@ -147,8 +148,12 @@ class Run:
         return self.done
 
     def value(self, found):
-        value = evaluate(found[1], {**MATHS, **self.names})
+        value = evaluate(found[1], {**MATHS, "turned": self.turned, **self.names})
         return value if isinstance(value, str) else repr(value)
+
+    def turned(self, x, y, unit=""):
+        angle, y = math.radians(self.names["angle"]), self.names["side"]*y
+        return f"{x*math.cos(angle) - y*math.sin(angle)!r}{unit} {x*math.sin(angle) + y*math.cos(angle)!r}{unit}"
 
     def path(self, name):
         self.make()
@@ -315,7 +320,7 @@ class Expectations:
         options = dict(zip(words[1::2], words[2::2]))
         base = self.runs[options["like"]].deck if "like" in options else self.deck(options.get("deck", self.name))
         self.run = self.runs[words[0]] = Run(words[0], list(base), self.folder, self.program)
-        self.run.names = {"of": self.functions_of, **(self.runs[options["like"]].names if "like" in options else {})}
+        self.run.names = dict(self.runs[options["like"]].names) if "like" in options else {"of": self.functions_of}
         self.chosen, self.beside, self.others = None, {}, {}
 
     def follow(self, line):
