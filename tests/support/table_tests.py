@@ -13,6 +13,7 @@ A line of NAME.expected says one thing; behind ` ! ` stands where a value comes 
     + CARD | CARD                      more cards
     - WORDS | WORDS                    without the cards that begin so
     ~ OLD -> NEW                       other words
+    reverse WORDS                      cards that begin so in the other order
     take CARD of RUN TABLE             the cards that the head of a table gives
     status N                           the exit status, else 0
     check N                            the deck is checked only (--check), and the exit status is N
@@ -20,7 +21,9 @@ A line of NAME.expected says one thing; behind ` ! ` stands where a value comes 
     [no] log TEXT                      a line of run.log
     writes TABLE ...                   all tables of the run
 
-Of a table, which `table NAME` chooses:
+Lines from `repeat a,b = 1,2 | 3,4` to `end` stand there once for each of the values, which replace <a> and <b>.
+
+Of a table, which `table NAME` or `table RUN NAME` chooses:
 
     [no] note TEXT                     a line of its head
     failed TEXT | TEXT                 all failed rows
@@ -337,9 +340,15 @@ class Expectations:
         elif word == "let":
             name, _, expression = rest.partition(" = ")
             self.run.names[name] = evaluate(expression, {**MATHS, **self.run.names})
+        elif word == "reverse":
+            places = [i for i, card in enumerate(self.run.deck) if card.startswith(rest)]
+            for i, card in zip(places, [self.run.deck[i] for i in reversed(places)]):
+                self.run.deck[i] = card
+            if len(places) < 2:
+                raise Fault("nothing to reverse")
         elif word == "take":
             card, run, table = re.fullmatch(r"(\S+) of (\S+) (\S+)", rest).groups()
-            cards = [note for note in self.runs[run].table(table).notes if note.startswith(card + " ")]
+            cards = [note for note in self.run_named(run).table(table).notes if note.startswith(card + " ")]
             if not cards:
                 raise Fault(f"{table} gives no {card}")
             self.run.deck += cards
@@ -350,21 +359,27 @@ class Expectations:
             self.run.make()
             return True
         elif word == "table":
-            self.chosen, self.beside, self.others = rest, {}, {}
-            self.run.table(rest)
+            run, _, self.chosen = rest.rpartition(" ")
+            self.beside, self.others = {}, {}
+            if run:
+                self.run = self.run_named(run)
+            self.run.table(self.chosen)
         elif word in ("beside", "with"):
             name, other = (part.strip() for part in rest.split("="))
             run, _, table = other.rpartition(" ")
-            if run and run not in self.runs:
-                raise Fault(f"there is no run {run}")
-            (self.beside if word == "beside" else self.others)[name] = (self.runs[run] if run else self.run).table(table)
+            (self.beside if word == "beside" else self.others)[name] = (self.run_named(run) if run else self.run).table(table)
         else:
             self.expect(word, rest)
             return True
         return False
 
+    def run_named(self, name):
+        if name not in self.runs:
+            raise Fault(f"there is no run {name}")
+        return self.runs[name]
+
     def functions_of(self, run, table):
-        return SimpleNamespace(**Rows(self.runs[run].table(table), {}, {}).functions)
+        return SimpleNamespace(**Rows(self.run_named(run).table(table), {}, {}).functions)
 
     def expect(self, word, rest):
         without = word == "no"
@@ -373,6 +388,8 @@ class Expectations:
         if word in ("says", "silent", "log", "writes"):
             self.expect_of_run(word, rest, without)
             return
+        if not self.chosen:
+            raise Fault("there is no line `table`, or the word means nothing")
         table = self.run.table(self.chosen)
         if word == "note":
             found = any(pattern_of(rest).fullmatch(note) for note in table.notes)
@@ -430,14 +447,8 @@ class Expectations:
 
     def results(self, text):
         """Of every line that tests something its place and why it is not met, or None."""
-        lost, number, waiting = False, 0, ""
-        for n, part in enumerate(text.splitlines(), 1):
-            number = number if waiting else n
-            waiting += part.strip()
-            if waiting.endswith("\\"):
-                waiting = waiting[:-1].rstrip() + " "
-                continue
-            line, waiting = waiting, ""
+        lost = False
+        for number, line in repeated(numbered_lines(text)):
             word = line.split(" ")[0]
             lost = lost and word != "run"
             if lost:
@@ -448,7 +459,44 @@ class Expectations:
             except Fault as fault:
                 yield f"tests/tables/{self.name}.expected:{number}", f"{line}\n  {fault}"
                 # Without the deck or the table nothing that follows makes sense.
-                lost = word in ("run", "let", "+", "-", "~", "take", "check", "status", "table", "beside", "with")
+                lost = word in ("run", "let", "+", "-", "~", "reverse", "take", "check", "status", "table", "beside", "with")
+
+
+def numbered_lines(text):
+    """Lines with their numbers, those that go on put together."""
+    number, waiting = 0, ""
+    for n, part in enumerate(text.splitlines(), 1):
+        number = number if waiting else n
+        waiting += part.strip()
+        if waiting.endswith("\\"):
+            waiting = waiting[:-1].rstrip() + " "
+        else:
+            yield number, waiting
+            waiting = ""
+
+
+def repeated(lines):
+    """Lines, those from `repeat` to `end` once for each of its values."""
+    lines = iter(lines)
+    for number, line in lines:
+        if not line.startswith("repeat "):
+            yield number, line
+            continue
+        names, _, values = line[len("repeat "):].partition(" = ")
+        block, depth = [], 1
+        for inner in lines:
+            depth += inner[1].startswith("repeat ") - (inner[1] == "end")
+            if depth == 0:
+                break
+            block.append(inner)
+        for value in values.split(" | "):
+            pairs = list(zip(names.split(","), value.split(",")))
+            changed = []
+            for n, text in block:
+                for name, word in pairs:
+                    text = text.replace(f"<{name.strip()}>", word.strip())
+                changed.append((n, text))
+            yield from repeated(changed)
 
 
 def results(name, program, folder):
