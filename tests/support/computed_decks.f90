@@ -22,8 +22,7 @@ module computed_decks
   implicit none (type, external)
   private
 
-  public :: read_text, compute_text, compute_model, plan_of_table, notes_of_table, rows_of_table, table_text, &
-    row_lines, count_of
+  public :: read_text, compute_text, plan_of_table, rows_of_table, table_text, row_lines, count_of
 
   !> The file that a table is written to and read from again.
   character(len=*), parameter :: scratch = "computed_decks.scratch"
@@ -65,32 +64,21 @@ contains
     integer, intent(in), optional :: threads                !! else one
 
     type(model_t) :: model
-
-    call read_text(text, model, complaint, variant)
-    if (len(complaint) == 0) call compute_model(model, found, complaint, threads)
-  end subroutine compute_text
-
-  !> Makes all studies that a model asks for.
-  subroutine compute_model(model, found, complaint, threads)
-    type(model_t), intent(in) :: model
-    type(variant_results_t), intent(out) :: found
-    character(len=:), allocatable, intent(out) :: complaint
-    integer, intent(in), optional :: threads
-
     type(variant_run_t) :: run
     type(journal_t) :: no_journal
     type(link_store_t) :: store
     type(error_t), allocatable :: error
     integer :: number
 
+    call read_text(text, model, complaint, variant)
+    if (len(complaint) > 0) return
     number = 1
     if (present(threads)) number = threads
     call begin_variant_run(run, model)
     call compute_variant(run, number, no_journal, -1, store, error)
-    complaint = ""
     if (allocated(error)) complaint = rendered(error)
     found = run%results
-  end subroutine compute_model
+  end subroutine compute_text
 
   !> Columns and items of a table whose report the deck asks for; without a table if there is none.
   subroutine plan_of_table(found, name, plan)
@@ -106,18 +94,6 @@ contains
       if (tables(i)%table%name == name) call plan_table(tables(i)%table, found, plan)
     end do
   end subroutine plan_of_table
-
-  !> The remarks at the head of a table whose report the deck asks for.
-  subroutine notes_of_table(found, name, notes)
-    type(variant_results_t), intent(in) :: found
-    character(len=*), intent(in) :: name
-    type(string_t), allocatable, intent(out) :: notes(:)
-
-    type(table_plan_t) :: plan
-
-    call plan_of_table(found, name, plan)
-    call plan%table%find_notes(found, notes)
-  end subroutine notes_of_table
 
   !> All rows of a table whose report the deck asks for.
   subroutine rows_of_table(found, name, threads, rows)
@@ -148,7 +124,7 @@ contains
 
     text = ""
     call plan_of_table(found, name, plan)
-    call notes_of_table(found, name, notes)
+    call plan%table%find_notes(found, notes)
     call rows_of_table(found, name, 1, rows)
     call open_table(".", scratch, .false., table, error)
     if (allocated(error)) return

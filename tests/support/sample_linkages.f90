@@ -9,14 +9,13 @@ module sample_linkages
   implicit none (type, external)
   private
 
-  public :: assemble, linkage_of, body_named, pin_named, sample_names, deck_named, sample_crank, &
-    with_light_links
+  public :: assemble, linkage_of, body_named, pin_named, sample_names, deck_named, sample_crank
 
   character(len=*), parameter :: nl = achar(10)
 
   !> What every deck here begins with, so that all numbers are in SI, and what it ends with.
   character(len=*), parameter, public :: head = "UNITS m kg s"//nl
-  character(len=*), parameter, public :: tail = "CRANK 0"//nl//"REPORT kinematics"//nl
+  character(len=*), parameter :: tail = "CRANK 0"//nl//"REPORT kinematics"//nl
 
   !> RRP: a crank, a rod and a piston in a bore that does not pass the crank's pivot.
   character(len=*), parameter, public :: engine = head//"GROUND O 0.5 -0.25"//nl// &
@@ -134,27 +133,6 @@ contains
       text = levers
     end select
   end function deck_named
-
-  !> A deck whose links have masses that matter nowhere, where they have none: for reports that need
-  !! them. Pins alone, lumps and loads then tell the forces.
-  pure function with_light_links(text) result(light)
-    character(len=*), intent(in) :: text
-    character(len=:), allocatable :: light
-
-    character(len=:), allocatable :: line
-    integer :: start, length
-
-    light = ""
-    start = 1
-    do while (start <= len(text))
-      length = index(text(start:)//nl, nl) - 1
-      line = text(start:start + length - 1)
-      if (index(line, "LINK ") == 1 .and. index(line, " mass=") == 0) line = line// &
-        " mass=1e-13 inertia=1e-15 center=0,0"
-      light = light//line//nl
-      start = start + length + 1
-    end do
-  end function with_light_links
 
   !> The k-th of 24 coordinates of the first drive that a linkage reaches, away from dead points.
   pure function sample_crank(name, k) result(crank)
