@@ -6,10 +6,10 @@
 
 A line of NAME.expected says one thing; behind ` ! ` stands where a value comes from, and a line that ends with \\ goes on. Runs:
 
-    run NAME [deck OTHER] [like RUN]   a deck: NAME.deck if there is one, or OTHER.deck, with the changes of another run; what comes
-                                       before the first such line is of NAME.deck itself
-    let NAME = EXPRESSION              for {EXPRESSION} in cards, in which `of(RUN, TABLE)` has the functions below of another run
-                                       and `turned(x, y)` is a vector mirrored (side = -1) and turned by angle
+    run NAME [deck OTHER | like RUN]   begins with the cards of OTHER.deck (deck none: without any), of another run, or of the deck
+                                       beside the file, of which is what comes before the first such line
+    let NAME = EXPRESSION              for claims, and for {EXPRESSION} in cards, in which `of(RUN, TABLE)` has the functions
+                                       below of another run, and `turned(x, y)` is a vector mirrored (side = -1) and turned by angle
     + CARD | CARD                      more cards
     - WORDS | WORDS                    without the cards that begin so
     ~ OLD -> NEW                       other words
@@ -19,7 +19,6 @@ A line of NAME.expected says one thing; behind ` ! ` stands where a value comes 
     check N                            the deck is checked only (--check), and the exit status is N
     [no] says TEXT, silent             on standard error; of several `says` all
     [no] log TEXT                      a line of run.log
-    writes TABLE ...                   all tables of the run
 
 Lines from `repeat a,b = 1,2 | 3,4` to `end` stand there once for each of the values, which replace <a> and <b>.
 
@@ -171,8 +170,8 @@ class Run:
 class Rows:
     """What expressions may name, of the rows of a table and of those beside it."""
 
-    def __init__(self, table, beside, others):
-        self.beside, self.tables = {"": table, **beside}, {"": table, **beside, **others}
+    def __init__(self, table, beside, others, given=()):
+        self.beside, self.tables, self.given = {"": table, **beside}, {"": table, **beside, **others}, dict(given)
         self.here = 0
         for name, other in beside.items():
             if len(other.rows) != len(table.rows):
@@ -221,7 +220,7 @@ class Rows:
 
     def names_at(self, index):
         table = self.tables[""]
-        names = {**MATHS, **self.functions, "notes": table.notes, "units": table.units, "shape": table.shape}
+        names = {**MATHS, **self.given, **self.functions, "notes": table.notes, "units": table.units, "shape": table.shape}
         if index is not None:
             self.here = index
             for name, table in self.beside.items():
@@ -321,9 +320,12 @@ class Expectations:
     def begin_run(self, rest):
         words = rest.split()
         options = dict(zip(words[1::2], words[2::2]))
-        base = self.runs[options["like"]].deck if "like" in options else self.deck(options.get("deck", self.name))
+        base = options.get("deck", self.name)
+        if base != "none" and "like" not in options and not os.path.exists(os.path.join(FOLDER, base + ".deck")):
+            raise Fault(f"there is no {base}.deck")
+        base = self.run_named(options["like"]).deck if "like" in options else self.deck(base)
         self.run = self.runs[words[0]] = Run(words[0], list(base), self.folder, self.program)
-        self.run.names = dict(self.runs[options["like"]].names) if "like" in options else {"of": self.functions_of}
+        self.run.names = dict(self.run_named(options["like"]).names) if "like" in options else {"of": self.functions_of}
         self.chosen, self.beside, self.others = None, {}, {}
 
     def follow(self, line):
@@ -385,7 +387,7 @@ class Expectations:
         without = word == "no"
         if without:
             word, _, rest = rest.partition(" ")
-        if word in ("says", "silent", "log", "writes"):
+        if word in ("says", "silent", "log"):
             self.expect_of_run(word, rest, without)
             return
         if not self.chosen:
@@ -412,13 +414,13 @@ class Expectations:
             self.expect_list(table, rest)
         elif word in ("each:", "each", "at", "row", "whole:"):
             where, _, claims = (": " + rest if word[-1] == ":" else rest).partition(": ")
-            check_claims(Rows(table, self.beside, self.others), word.rstrip(":"), where.strip(), claims.strip())
+            check_claims(Rows(table, self.beside, self.others, self.run.names), word.rstrip(":"), where.strip(), claims.strip())
         elif word not in ("columns", "units", "rows", "shape"):
             raise Fault(f"'{word}' means nothing")
 
     def expect_list(self, table, rest):
         expression, _, wanted = rest.partition(" = ")
-        rows = Rows(table, self.beside, self.others)
+        rows = Rows(table, self.beside, self.others, self.run.names)
         expression, _, part = expression.partition(" of ")
         found = [evaluate(expression, rows.names_at(i)) for i in range(len(table.rows))]
         if part:
@@ -435,15 +437,11 @@ class Expectations:
             found = re.search(pattern_of(rest), done.stderr)
             if bool(found) == without:
                 raise Fault(f"it said:\n{done.stderr}")
-        elif word == "log":
+        else:
             with open(self.run.path("run.log"), encoding="utf-8") as file:
                 text = file.read()
             if any(pattern_of(rest).fullmatch(line) for line in text.splitlines()) == without:
                 raise Fault(f"the log says:\n{text}")
-        else:
-            found = sorted(os.path.splitext(name)[0] for name in os.listdir(self.run.path("")) if name.endswith(".dat"))
-            if found != sorted(rest.split()):
-                raise Fault(f"it writes {' '.join(found)}")
 
     def results(self, text):
         """Of every line that tests something its place and why it is not met, or None."""
