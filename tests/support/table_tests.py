@@ -64,7 +64,7 @@ FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tables"
 OPERATORS = {"=": lambda a, b: a == b, "<": lambda a, b: a < b, "<=": lambda a, b: a <= b, ">": lambda a, b: a > b,
              ">=": lambda a, b: a >= b}
 MATHS = {name: getattr(math, name) for name in dir(math) if not name.startswith("_")}
-MATHS.update((function.__name__, function) for function in (abs, all, any, float, int, len, max, min, round, sorted, str, sum, zip))
+MATHS.update((function.__name__, function) for function in (abs, all, any, float, int, range, len, max, min, round, sorted, str, sum, zip))
 MATHS["degree"] = math.pi/180
 
 
