@@ -22,7 +22,7 @@ module computed_decks
   implicit none (type, external)
   private
 
-  public :: read_text, compute_text, plan_of_table, rows_of_table, table_text, row_lines, count_of
+  public :: read_text, compute_text, plan_of_table, rows_of_table, table_text, row_lines
 
   !> The file that a table is written to and read from again.
   character(len=*), parameter :: scratch = "computed_decks.scratch"
@@ -159,20 +159,5 @@ contains
       start = start + length + 1
     end do
   end function row_lines
-
-  !> How often a text has a part.
-  pure function count_of(text, part) result(count)
-    character(len=*), intent(in) :: text, part
-    integer :: count
-
-    integer :: at
-
-    count = 0
-    at = 1
-    do while (index(text(at:), part) > 0)
-      count = count + 1
-      at = at + index(text(at:), part)
-    end do
-  end function count_of
 
 end module computed_decks
