@@ -395,12 +395,25 @@ no_four_bar() {
 
 # cycle_table: a table of such a linkage with its positions.
 cycle_table() {
-    for table in pins.dat kinematics.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat bearings.dat frame.dat friction.dat; do
+    for table in pins.dat kinematics.dat drives.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat bearings.dat frame.dat friction.dat; do
         if [ -f $table ]; then
             echo $table
             return
         fi
     done
+}
+
+# plan_drives: what drives rigid links; drive.dat is the older name of their table.
+plan_drives() {
+    drives=
+    for table in drive.dat drives.dat; do
+        [ -f "$table" ] && ask facts "$table" | grep -q '; col_drive = ' && drives=$table
+    done
+    shaking=
+    [ -f shaking.dat ] && shaking=${over}shaking.dat
+    [ -n "$drives" ] && have "$drives" || return 0
+    plan_speeds drive_forces "$over$drives" '' drive_forces.gp "$shaking"
+    have sizing.dat && [ -z "$over" ] && add drive_locus drive_locus.gp sizing.dat "$drives"
 }
 
 # A linkage that is no four-bar. A structure has one position: nothing is drawn over it.
@@ -414,10 +427,7 @@ plan_cycle() {
     have points.dat && plan_speeds point_rates "${over}points.dat" 'vx vy ax ay'
     [ -z "$structure" ] && have reactions.dat && plan_speeds joint_forces "${over}reactions.dat" 'fx fy'
     plan_bearings
-    shaking=
-    [ -f shaking.dat ] && shaking=${over}shaking.dat
-    have drive.dat && plan_speeds drive_forces "${over}drive.dat" '' drive_forces.gp "$shaking"
-    have sizing.dat && [ -z "$over" ] && have drive.dat && add drive_locus drive_locus.gp sizing.dat drive.dat
+    plan_drives
     # Places of a slider have no directions, and by a law a force comes to one of them more than once.
     if [ -n "$cycle" ] && [ -z "$over" ] && ask facts "$cycle" | grep -q "unit_crank = 'deg'"; then
         [ -f balance.dat ] && shaking=balance.dat
@@ -502,6 +512,7 @@ plan_rigid_dynamics() {
     if [ -n "$over" ]; then
         [ -z "$balance" ] ||
             plan_speeds balance "${over}balance.dat" 'shaking_x shaking_y shaking_moment torque balanced_moment balanced_torque'
+        plan_drives
         have lagrange.dat && plan_speeds lagrange "${over}lagrange.dat"
         have pins.dat && plan_speeds pin_motion "${over}pins.dat"
         return
@@ -513,6 +524,7 @@ plan_rigid_dynamics() {
         plan_speeds balance balance.dat 'shaking_x shaking_y shaking_moment torque balanced_moment balanced_torque'
     fi
     plan_bearings
+    plan_drives
     plan_equilibrium
     have harmonics.dat && plan_speeds harmonics harmonics.dat largest
     have lagrange.dat && plan_speeds lagrange lagrange.dat
@@ -541,7 +553,7 @@ plan_response() {
     fi
     have transient.dat && plan_speeds transient transient.dat 'ux uy' displacement_history.gp
     have gauges.dat && plan_speeds transient_strains gauges.dat 'axial_strain bending_strain stress' strain_history.gp
-    [ $other = no ] && have drive.dat && plan_speeds drive drive.dat 'rigid linear quadratic'
+    [ "$drives" != drive.dat ] && have drive.dat && plan_speeds drive drive.dat 'rigid linear quadratic'
     have torque.dat && plan_speeds torque torque.dat 'rigid linear quadratic' drive.gp
     frequencies=
     [ -f frequencies.dat ] && frequencies=frequencies.dat
@@ -623,6 +635,7 @@ esac
 
 : > "$new/plan"
 other=no
+drives=
 cycle=
 structure=
 if no_four_bar; then

@@ -16,7 +16,8 @@ module poses
   private
 
   public :: pose_t, find_pose, find_moving_pose, refuse_change_point, place_links, place_parts, &
-    place_groups, arm_to_middle, arm_to_place, body_angle, transmission_angle, dead_point_sine
+    place_groups, arm_to_middle, arm_to_place, body_angle, angle_along, transmission_angle, &
+    dead_point_sine
 
   !> Where |sin(θ4 − θ3)| is below this, near a dead point, the motion is not computed: velocities
   !! grow like 1/sin(θ4 − θ3).
@@ -332,12 +333,29 @@ contains
     integer, intent(in) :: body            !! number, from 1
     real(wp) :: angle
 
-    real(wp) :: e(2)
+    angle = angle_of(turned(linkage%bodies(body)%heading, pose%direction(:, body)))
+  end function body_angle
 
-    e = turned(linkage%bodies(body)%heading, pose%direction(:, body))
+  !> Angle of a body from one of its two ends to the other, in (−π, π] [rad].
+  pure function angle_along(linkage, pose, body, from) result(angle)
+    type(linkage_t), intent(in) :: linkage !! its bodies
+    type(pose_t), intent(in) :: pose       !! directions of the bodies
+    integer, intent(in) :: body            !! number, from 1
+    integer, intent(in) :: from            !! its first or its last pin
+    real(wp) :: angle
+
+    angle = angle_of(merge(1.0_wp, -1.0_wp, linkage%bodies(body)%first_pin == from)* &
+      pose%direction(:, body))
+  end function angle_along
+
+  !> Angle of a vector, in (−π, π] [rad].
+  pure function angle_of(e) result(angle)
+    real(wp), intent(in) :: e(2)
+    real(wp) :: angle
+
     ! Adding zero turns -0 into 0: an angle of -π would be outside the interval.
     angle = atan2(e(2) + 0.0_wp, e(1) + 0.0_wp)
-  end function body_angle
+  end function angle_of
 
   !> Transmission angle: between the two bodies of a dyad at their common pin, in [0, π] [rad]; best
   !! at π/2.

@@ -4,6 +4,7 @@ module mechanisms
   use attached_parts, only: append_loads, apply_loads, attach_masses, body_point_t, points_of, &
     runs_against
   use beam_mesh, only: new_beam_mesh
+  use four_bar_loops, only: find_four_bar, four_bar_t
   use elastic_linkages, only: needs_parts, new_elastic_linkage
   use friction_parts, only: frictions_of
   use kinds, only: wp
@@ -11,7 +12,7 @@ module mechanisms
   use linkage_parts, only: assemble_linkage, assembly_t
   use linkages, only: is_dyad_linkage
   use linkage_cards, only: default_accuracy
-  use models, only: inertia_lumped, is_four_bar, link_line_density, model_t, needs_beams
+  use models, only: as_four_bar, inertia_lumped, link_line_density, model_t, needs_beams
   use name_index, only: name_index_t, new_name_index
   use pose_types, only: pins_of_body, way_length
   use process_parts, only: process_loads
@@ -34,7 +35,9 @@ module mechanisms
     type(body_point_t), allocatable :: points(:) !! whose paths are requested
     type(body_point_t), allocatable :: response_points(:) !! of REPORT response
     type(body_gauge_t), allocatable :: gauges(:) !! of REPORT strains
-    logical :: is_four_bar = .true.             !! three links between two pins each, one driven
+    type(four_bar_t), allocatable :: four_bar   !! that the linkage is; not allocated: another one
+    logical :: is_four_bar = .true.             !! it is written as one, unless a report has a
+                                                !! format of its own
     integer, allocatable :: links(:)            !! (bodies) numbers of their links in the model
     logical, allocatable :: is_reversed(:)      !! (bodies) whose LINK card names the pins in the
                                                 !! order against the way round the loop
@@ -69,7 +72,8 @@ contains
     integer :: i
 
     mechanism%linkage = assembly%linkage
-    mechanism%is_four_bar = is_four_bar(model)
+    call find_four_bar(mechanism%linkage, mechanism%four_bar)
+    mechanism%is_four_bar = as_four_bar(model) .and. allocated(mechanism%four_bar)
     mechanism%links = assembly%link
     mechanism%pin_names = assembly%pins
     links = model%links(assembly%link)

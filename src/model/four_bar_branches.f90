@@ -5,19 +5,21 @@ module four_bar_branches
   use kinds, only: wp
   use link_cards, only: link_t
   use link_shapes, only: find_drawn_pin
-  use models, only: branch_crossed, branch_open, is_four_bar, model_t
+  use models, only: branch_crossed, branch_open, is_four_bar, model_t, word_of_four_bar
   use name_index, only: find_name, name_index_t, new_name_index
+  use report_kinds, only: any_linkage, four_bars
   use text, only: same_word
   use tokens, only: token_t, token_texts
   implicit none (type, external)
   private
 
-  public :: find_four_bar_branch
+  public :: find_four_bar_branch, check_format_of_four_bar, refuse_format
 
 contains
 
-  !> Finds the branch of a four-bar: from BRANCH open or crossed, from a BRANCH card about the pin
-  !! of coupler and follower, or from the drawing; else it is open.
+  !> Finds the branch of a four-bar, or of a linkage that `format=` calls one: from BRANCH open or
+  !! crossed, from a BRANCH card about the pin of coupler and follower, or from the drawing; else it
+  !! is open.
   !!
   !! Errors: links that form no loop; another BRANCH card; BRANCH open or crossed of another
   !! linkage. Any other linkage keeps its BRANCH cards as they are.
@@ -27,41 +29,123 @@ contains
     type(model_t), intent(inout) :: model             !! `branch` is set, and `branches` gets the
                                                       !! one that says the same about a pin
 
-    type(name_index_t) :: grounds
-    type(token_t) :: pin, pins(4)
-    integer :: position, link, far_end
-    logical :: used(size(model%links))
+    type(token_t) :: asked, pins(4)
+    integer :: loops
 
-    if (.not. is_four_bar(model) .or. size(model%drives) == 0) then
-      if (has_errors(diagnostics) .or. model%branch_word%line == 0) return
+    if (has_errors(diagnostics)) return
+    asked = word_of_four_bar(model)
+    if ((.not. is_four_bar(model) .and. asked%line == 0) .or. size(model%drives) == 0) then
+      if (model%branch_word%line == 0) return
       call add_error(diagnostics, model%branch_word, "open and crossed are the branches of a "// &
         "four-bar; of another linkage: BRANCH pin left|right pin pin, BRANCH pin "// &
         "forward|backward, or PIN cards")
       return
     end if
-    link = model%drives(1)%link
-    if (link == 0 .or. has_errors(diagnostics)) return
-    grounds = new_name_index(token_texts(model%grounds%pin))
-
-    ! Pins round the loop, from the driven ground pivot to the other one.
-    used = .false.
-    far_end = merge(2, 1, find_name(grounds, model%links(link)%pins(1)%text) > 0)
-    pin = model%links(link)%pins(3 - far_end)
-    pins(1) = pin
-    do position = 1, 3
-      used(link) = .true.
-      far_end = merge(2, 1, same_word(model%links(link)%pins(1)%text, pin%text))
-      pin = model%links(link)%pins(far_end)
-      pins(position + 1) = pin
-      if (position == 3) exit
-      link = link_at(model%links, used, pin%text)
-      if (link == 0 .or. find_name(grounds, pin%text) > 0) then
-        call refuse_open_loop(diagnostics, model, grounds, used)
-        return
-      end if
-    end do
-    call choose_branch(diagnostics, pins, model)
+    call find_loop(model, loops, pins)
+    if (loops == 1) then
+      call choose_branch(diagnostics, pins, model)
+    else if (is_four_bar(model)) then
+      call refuse_open_loop(diagnostics, model)
+    end if
   end subroutine find_four_bar_branch
+
+  !> Refuses `format=four_bar` of a linkage that has no such loop: its tables are then those of the
+  !! deck.
+  pure subroutine check_format_of_four_bar(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(model_t), intent(inout) :: model             !! with its links, drives and reports
+
+    type(token_t) :: asked, pins(4)
+    integer :: loops, i
+
+    asked = word_of_four_bar(model)
+    if (asked%line == 0 .or. is_four_bar(model)) return
+    call find_loop(model, loops, pins)
+    if (loops == 1) return
+    if (.not. has_errors(diagnostics)) call refuse_format(diagnostics, asked)
+    model%format = any_linkage
+    do i = 1, size(model%reports)
+      if (model%reports(i)%format == four_bars) model%reports(i)%format = any_linkage
+    end do
+  end subroutine check_format_of_four_bar
+
+  !> Refuses tables of four-bars of a linkage that is none.
+  pure subroutine refuse_format(diagnostics, word)
+    type(diagnostics_t), intent(inout) :: diagnostics !! to which an error is added
+    type(token_t), intent(in) :: word                 !! of `format=`
+
+    call add_error(diagnostics, word, "this linkage is no four-bar: no driven link, coupler "// &
+      "and follower alone hold each other between two ground pivots; expected linkage, or no "// &
+      "format=")
+  end subroutine refuse_format
+
+  !> Ways from the driven ground pivot over three links to another ground pivot, in a linkage whose
+  !! further links are welded on, and nothing slides.
+  pure subroutine find_loop(model, loops, pins)
+    type(model_t), intent(in) :: model       !! with its drives
+    integer, intent(out) :: loops            !! how many there are
+    type(token_t), intent(out) :: pins(4)    !! of the last: O2, A, B, O4
+
+    type(name_index_t) :: grounds
+    integer :: driven, o2, a, coupler, b, follower, o4
+
+    grounds = new_name_index(token_texts(model%grounds%pin))
+    loops = 0
+    pins = token_t("", 0, 0)
+    if (size(model%drives) == 0) return
+    driven = find_name(new_name_index(token_texts(model%links%name)), model%drives(1)%subject%text)
+    if (driven == 0 .or. size(model%links) > 3 + count_welded(model) .or. size(model%sliders) > 0) &
+      return
+    associate (links => model%links, crank => model%links(driven))
+      do a = 1, size(crank%pins)
+        if (is_ground(crank%pins(a))) cycle
+        do coupler = 1, size(links)
+          if (coupler == driven .or. .not. has(links(coupler), crank%pins(a))) cycle
+          do b = 1, size(links(coupler)%pins)
+            if (same_word(links(coupler)%pins(b)%text, crank%pins(a)%text) .or. &
+              is_ground(links(coupler)%pins(b))) cycle
+            do follower = 1, size(links)
+              if (any(follower == [driven, coupler]) .or. .not. has(links(follower), &
+                links(coupler)%pins(b))) cycle
+              do o4 = 1, size(links(follower)%pins)
+                if (.not. is_ground(links(follower)%pins(o4))) cycle
+                do o2 = 1, size(crank%pins)
+                  if (.not. is_ground(crank%pins(o2)) .or. same_word(crank%pins(o2)%text, &
+                    links(follower)%pins(o4)%text)) cycle
+                  loops = loops + 1
+                  pins = [crank%pins(o2), crank%pins(a), links(coupler)%pins(b), &
+                    links(follower)%pins(o4)]
+                end do
+              end do
+            end do
+          end do
+        end do
+      end do
+    end associate
+
+  contains
+
+    pure function is_ground(pin) result(is)
+      type(token_t), intent(in) :: pin
+      logical :: is
+
+      is = find_name(grounds, pin%text) > 0
+    end function is_ground
+
+    pure function has(link, pin)
+      type(link_t), intent(in) :: link
+      type(token_t), intent(in) :: pin
+      logical :: has
+
+      integer :: k
+
+      has = .false.
+      do k = 1, size(link%pins)
+        has = has .or. same_word(link%pins(k)%text, pin%text)
+      end do
+    end function has
+
+  end subroutine find_loop
 
   !> Open or crossed, without a card that says so: by a BRANCH card about the pin of coupler and
   !! follower, or else by the drawing. Errors: a card about another pin, or the side of another way
@@ -110,18 +194,27 @@ contains
     model%branches = [found]
   end subroutine choose_branch
 
-  !> Reports why the links form no loop, although every moving pin joins two links: two of the three
-  !! are joined to each other, and the third joins the ground pivots.
-  pure subroutine refuse_open_loop(diagnostics, model, grounds, used)
-    type(diagnostics_t), intent(inout) :: diagnostics
+  !> How many links welds join to others.
+  pure function count_welded(model) result(joined)
     type(model_t), intent(in) :: model
-    type(name_index_t), intent(in) :: grounds
-    logical, intent(in) :: used(:) !! (links) already in the loop
+    integer :: joined
 
     integer :: i
 
+    joined = sum([(max(0, size(model%welds(i)%links) - 1), i=1, size(model%welds))])
+  end function count_welded
+
+  !> Reports why the links form no loop, although every moving pin joins two links: two of the three
+  !! are joined to each other, and the third joins the ground pivots.
+  pure subroutine refuse_open_loop(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    type(name_index_t) :: grounds
+    integer :: i
+
+    grounds = new_name_index(token_texts(model%grounds%pin))
     do i = 1, size(model%links)
-      if (used(i)) cycle
       if (find_name(grounds, model%links(i)%pins(1)%text) == 0 .or. find_name(grounds, &
         model%links(i)%pins(2)%text) == 0) cycle
       call add_error(diagnostics, model%links(i)%name, "link '"//model%links(i)%name%text// &
@@ -131,22 +224,5 @@ contains
     call add_error(diagnostics, model%drive, "the links do not form a loop that '"// &
       model%drive%text//"' can drive")
   end subroutine refuse_open_loop
-
-  !> The link at a pin, of those not yet in the loop; 0 if none.
-  pure function link_at(links, used, name) result(number)
-    type(link_t), intent(in) :: links(:)
-    logical, intent(in) :: used(:)       !! (links) already in the loop
-    character(len=*), intent(in) :: name !! of the pin
-    integer :: number
-
-    integer :: n
-
-    number = 0
-    do n = 1, size(links)
-      if (used(n)) cycle
-      if (same_word(links(n)%pins(1)%text, name) .or. same_word(links(n)%pins(2)%text, name)) &
-        number = n
-    end do
-  end function link_at
 
 end module four_bar_branches

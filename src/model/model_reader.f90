@@ -5,14 +5,15 @@ module model_reader
   use body_cards, only: read_mass, read_point
   use body_checks, only: check_bodies
   use card_lists, only: append_card
+  use card_reader, only: has_value, read_choice, value_of
   use card_table, only: card_kind_number, card_kinds, card_names
   use cards, only: card_t
-  use diagnostics, only: add_error, diagnostics_t, has_errors
+  use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use drive_cards, only: branch_t, kind_of_drive, moves_along, read_branch, read_drive
   use drive_checks, only: check_drives
   use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
   use errors, only: error_of_writing
-  use four_bar_branches, only: find_four_bar_branch
+  use four_bar_branches, only: check_format_of_four_bar, find_four_bar_branch
   use followed_places, only: find_followed_places
   use friction_checks, only: check_frictions, read_frictions
   use idle_parts, only: leave_out_idle_parts
@@ -27,8 +28,9 @@ module model_reader
   use load_cards, only: force_card_t, read_force, read_gravity, read_torque, torque_card_t
   use materials, only: read_material
   use mesh_checks, only: check_meshes
-  use models, only: drives_length, has_gauge_histories, has_law, is_four_bar, is_loaded, &
-    is_moving, is_sprung, model_t, needs_frequencies, needs_mesh, needs_response, report_number
+  use models, only: as_four_bar, drives_length, has_gauge_histories, has_law, is_four_bar, &
+    is_loaded, is_moving, is_sprung, model_t, needs_frequencies, needs_mesh, &
+    needs_response, report_number
   use motor_cards, only: read_motor
   use motor_checks, only: find_motor_line
   use process_cards, only: is_process_form, process_card_t, read_process_force, &
@@ -37,7 +39,8 @@ module model_reader
   use name_checks, only: check_names
   use output_units, only: new_output_units, output_units_t, table_name
   use report_cards, only: read_report
-  use report_kinds, only: kind_of_linkage, report_kind_t, table_kind_t
+  use report_kinds, only: any_linkage, format_words, four_bars, kind_of_linkage, other_linkages, &
+    report_kind_t, table_kind_t
   use request_cards, only: read_crank, read_modes, read_option, read_speed, read_title
   use request_checks, only: check_requests, check_required, has_card
   use response_cards, only: is_response_form, read_damping, read_gauge, read_omitted_terms, &
@@ -102,7 +105,7 @@ contains
     model%effects = 0
     call check_keywords(cards, diagnostics)
     call refuse_second_cards(cards, diagnostics)
-    call read_system(cards, diagnostics, model%units, model%outputs, chooses_rate)
+    call read_system(cards, diagnostics, model, chooses_rate)
     call read_model_cards(cards, reports, diagnostics, model)
     model%has_branch_card = has_card(cards, "BRANCH")
     if (.not. any([has_card(cards, "DRIVE"), has_card(cards, "CRANK"), has_card(cards, "TIME"), &
@@ -165,22 +168,28 @@ contains
     model%cuts_at_springs = needs_frequencies(rigid) .or. needs_response(rigid)
   end subroutine find_cuts
 
-  !> Takes, of two reports with one name, that on the linkage of the deck.
+  !> Takes, of two reports with one name, that on the linkage of the deck, or of `format=`.
   pure subroutine choose_reports(reports, diagnostics, model)
     type(report_kind_t), intent(in) :: reports(:)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model
 
     logical :: four_bar, is_sound
-    integer :: i, number
+    integer :: i, number, drives
 
     ! Of a deck with errors the linkage may be another one than it seems to be.
     is_sound = .not. has_errors(diagnostics)
-    four_bar = is_four_bar(model)
+    call check_format_of_four_bar(diagnostics, model)
     do i = 1, size(model%reports)
       associate (report => model%reports(i))
         if (len_trim(report%kind%name) == 0) cycle
+        four_bar = as_four_bar(model)
+        if (report%format /= any_linkage) four_bar = report%format == four_bars
+        ! An older name means what it has meant.
+        if (report%kind%name == "drive") four_bar = is_four_bar(model)
         number = kind_of_linkage(reports, trim(report%kind%name), four_bar)
+        if (number == 0) number = kind_of_linkage(reports, trim(report%kind%name), &
+          is_four_bar(model))
         if (number > 0) then
           report%kind = reports(number)
           if (report%kind%name == "motion") then
@@ -189,8 +198,11 @@ contains
           end if
           if (report%kind%name == "transient" .and. .not. has_gauge_histories(model)) &
             report%kind%tables(2) = table_kind_t()
-          if (report%kind%name == "summary") call take_needs(reports, model, four_bar, is_sound, &
-            diagnostics, report)
+          if (report%kind%name == "summary") call take_needs(reports, model, as_four_bar(model) &
+            .or. is_four_bar(model), is_sound, diagnostics, report)
+          if (report%kind%name == "drive") call add_warning(diagnostics, report%keyword, &
+            "REPORT drive is an older name; expected REPORT "//merge("torque", "drives", &
+            report%kind%linkages == four_bars)//", which has the same columns")
           ! Harmonics are of a whole turn at constant speed.
           if (report%kind%name == "balance" .and. has_law(model)) then
             report%kind%tables(2) = table_kind_t()
@@ -205,6 +217,12 @@ contains
         end if
       end associate
     end do
+    number = report_number(model, "drive")
+    drives = report_number(model, "drives")
+    if (number == 0 .or. drives == 0) return
+    if (model%reports(number)%kind%linkages == other_linkages) call add_error(diagnostics, &
+      model%reports(number)%keyword, "REPORT drive is the older name of REPORT drives", &
+      model%reports(drives)%keyword, "which is here")
   end subroutine choose_reports
 
   !> Reports every unknown card.
@@ -296,22 +314,25 @@ contains
 
   !> Reads the UNITS card, which may be anywhere in the deck. Without one the deck is read in SI, to
   !! find its other errors.
-  subroutine read_system(cards, diagnostics, system, outputs, chooses_rate)
+  subroutine read_system(cards, diagnostics, model, chooses_rate)
     type(card_t), intent(in) :: cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
-    type(unit_system_t), intent(out) :: system
-    type(output_units_t), intent(out) :: outputs
+    type(model_t), intent(inout) :: model !! gets units and format
     logical, intent(out) :: chooses_rate
 
     integer :: i
 
-    system = si_units()
+    model%units = si_units()
+    model%format_word = token_t("", 0, 0)
     do i = 1, size(cards)
       if (.not. same_word(cards(i)%keyword%text, "UNITS")) cycle
-      call read_units(cards(i), diagnostics, system, outputs, chooses_rate)
+      call read_units(cards(i), diagnostics, model%units, model%outputs, chooses_rate)
+      if (.not. has_value(cards(i), "format")) return
+      model%format_word = value_of(cards(i), "format")
+      call read_choice(model%format_word, format_words, diagnostics, model%format)
       return
     end do
-    outputs = new_output_units(system)
+    model%outputs = new_output_units(model%units)
     chooses_rate = .false.
   end subroutine read_system
 

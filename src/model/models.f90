@@ -20,7 +20,7 @@ module models
   use process_cards, only: over_nothing, process_card_t
   use output_units, only: output_units_t
   use report_cards, only: report_t
-  use report_kinds, only: report_kind_t
+  use report_kinds, only: any_linkage, four_bars, report_kind_t
   use response_cards, only: damping_card_t, gauge_t, omitted_terms_t
   use sections, only: section_t
   use spring_cards, only: spring_t
@@ -37,7 +37,8 @@ module models
     needs_response, has_gauge_histories, report_in_motion, steady_state_report, &
     accuracy_of_study, needs_beams, &
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
-    link_line_density, speed_in_table, speed_in_words, is_four_bar, is_pin, pivots, &
+    link_line_density, speed_in_table, speed_in_words, is_four_bar, as_four_bar, &
+    is_of_four_bar, word_of_four_bar, is_pin, pivots, &
     is_end_of_spring, drives_length, balances, has_law, &
     rule_at_change_points, motion_goes_through
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
@@ -87,6 +88,9 @@ module models
     logical :: cuts_at_springs = .false.        !! links bend: a point with a spring is a pin
     type(token_t) :: drive                      !! first word of the first DRIVE card: the driven
                                                 !! link, or the pin of the driven slider
+    integer :: format = any_linkage             !! of all tables: four_bars or other_linkages by
+                                                !! UNITS … format=; else as the deck is
+    type(token_t) :: format_word                !! its word
     integer :: branch = branch_open             !! of a four-bar: branch_open or branch_crossed
     type(token_t) :: branch_word                !! keyword of BRANCH open|crossed
     logical :: has_branch_card = .false.        !! of any form
@@ -197,6 +201,38 @@ contains
     if (.not. is .or. (size(model%drawn_pins) == 0 .and. size(model%branches) == 0)) return
     is = forms_loop(model)
   end function is_four_bar
+
+  !> Whether tables and words that ask for no other format are those of four-bars.
+  pure function as_four_bar(model) result(as)
+    type(model_t), intent(in) :: model !! as read
+    logical :: as
+
+    as = model%format == four_bars
+    if (model%format == any_linkage) as = is_four_bar(model)
+  end function as_four_bar
+
+  !> Whether a report, which the deck has, is written as of a four-bar.
+  pure function is_of_four_bar(model, name) result(is)
+    type(model_t), intent(in) :: model   !! as read
+    character(len=*), intent(in) :: name !! of the report
+    logical :: is
+
+    is = model%reports(report_number(model, name))%kind%linkages == four_bars
+  end function is_of_four_bar
+
+  !> The word that asks for tables of four-bars; without a line if none does.
+  pure function word_of_four_bar(model) result(word)
+    type(model_t), intent(in) :: model !! as read
+    type(token_t) :: word
+
+    integer :: i
+
+    word = token_t("", 0, 0)
+    do i = size(model%reports), 1, -1
+      if (model%reports(i)%format == four_bars) word = model%reports(i)%format_word
+    end do
+    if (model%format == four_bars) word = model%format_word
+  end function word_of_four_bar
 
   !> Whether links, PINMASS or FORCE cards take a name for that of a pin; and springs on a link that
   !! bends, where frequencies are asked for.

@@ -12,8 +12,6 @@ module balance_report
   use load_notes, only: acceleration_note
   use models, only: drives_length, model_t
   use position_rows, only: add_position_row
-  use reactions_study, only: reaction_values, reactions_at_speed, reactions_result_t, &
-    shaking_values, torque_value
   use report_kinds, only: four_bars, other_linkages, report_kind_t
   use report_types, only: add_table, fit_columns, report_record_t, state_table_t, table_plan_t, &
     whole_table_t
@@ -51,7 +49,7 @@ module balance_report
     procedure, nopass :: find_notes => hung_balance_notes
     procedure, nopass :: plan => plan_hung_balance
     procedure, nopass :: fit => fit_hung_balance
-    procedure, nopass :: add_position => add_hung_balance
+    procedure, nopass :: add_position => add_balance
   end type hung_balance_table_t
 
   !> `harmonics.dat` of other linkages.
@@ -68,7 +66,8 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="balance", help="shaking force, counterweights, harmonics", &
-      studies="reactions balance harmonics", positions=.true., masses=.true., numbers=98, &
+      pattern="REPORT balance [format=]", studies="joints balance harmonics", positions=.true., &
+      masses=.true., numbers=210, &
       linkages=four_bars)
     call add_table(report, balance_table_t(), "balance", "speed:speed crank:deg xG,yG:length "// &
       "shaking_x,shaking_y:force shaking_moment,torque:moment balanced_x,balanced_y:force "// &
@@ -83,7 +82,8 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="balance", help="of other linkages: shaking force, "// &
-      "counterweights", studies="joints balance harmonics", positions=.true., masses=.true., &
+      "counterweights", pattern="REPORT balance [format=]", &
+      studies="joints balance harmonics", positions=.true., masses=.true., &
       linkages=other_linkages)
     call add_table(report, hung_balance_table_t(), "balance", "speed:speed crank:deg xG,"// &
       "yG:length shaking_x,shaking_y:force shaking_moment,torque:moment balanced_x?,"// &
@@ -198,46 +198,9 @@ contains
     call append_string(list, acceleration_note(variant%model))
   end function quantity_notes
 
-  !> Appends the row of a position and speed.
+  !> Appends the row of a position and speed: mass centre, shaking force and moment, force of the
+  !! first drive; the last three with counterweights too, if there are any.
   subroutine add_balance(variant, layout, position, speed, rows)
-    type(variant_results_t), intent(in) :: variant !! with reactions and balance computed
-    type(table_layout_t), intent(in) :: layout     !! of this table
-    integer, intent(in) :: position                !! number in the deck's list, with a pose
-    integer, intent(in) :: speed                   !! number in the deck's list
-    type(rows_t), intent(inout) :: rows            !! to which it is appended
-
-    associate (balance => variant%found%balance, &
-        state => variant%found%positions%state(position))
-      if (is_unbalanced(variant)) then
-        call add_failed_row(rows, [variant%model%shown_speed(speed), &
-          variant%found%positions%crank(position)], balance%partial%error%text)
-        return
-      end if
-      call add_position_row(variant, layout, position, speed, [balance%centre(:, state), &
-        row_quantities(variant%found%reactions), row_quantities(balance%balanced)], rows)
-    end associate
-
-  contains
-
-    !> Shaking force and moment, and driving torque [N, N m].
-    pure function row_quantities(reactions) result(values)
-      type(reactions_result_t), intent(in) :: reactions
-      real(wp) :: values(4)
-
-      real(wp) :: every(reaction_values), rates(2)
-
-      rates = drive_rates(variant%model, speed, position)
-      every = reactions_at_speed(reactions, variant%found%positions%state(position), rates(1), &
-        rates(2), speed)
-      values = [every(shaking_values), every(torque_value)]
-    end function row_quantities
-
-  end subroutine add_balance
-
-  !> Appends the row of a position and speed of a linkage that is no four-bar: mass centre, shaking
-  !! force and moment, force of the first drive; the last three with counterweights too, if there
-  !! are any.
-  subroutine add_hung_balance(variant, layout, position, speed, rows)
     type(variant_results_t), intent(in) :: variant !! with its joints and balance computed
     type(table_layout_t), intent(in) :: layout     !! of this table
     integer, intent(in) :: position                !! number in the deck's list, with a pose
@@ -256,29 +219,30 @@ contains
       end if
       count = merge(10, 6, has_balanced(balance))
       values(:2) = balance%centre(:, state)
-      values(3:6) = row_quantities(variant%found%joints)
-      if (count > 6) values(7:) = row_quantities(balance%balanced_joints)
+      values(3:6) = row_quantities(variant, variant%found%joints, position, speed)
+      if (count > 6) values(7:) = row_quantities(variant, balance%balanced, position, speed)
       call add_position_row(variant, layout, position, speed, values(:count), rows)
     end associate
+  end subroutine add_balance
 
-  contains
+  !> Shaking force and moment, and force of the first drive [N, N m].
+  pure function row_quantities(variant, joints, position, speed) result(quantities)
+    type(variant_results_t), intent(in) :: variant
+    type(joints_result_t), intent(in) :: joints
+    integer, intent(in) :: position, speed !! numbers in the deck's lists
+    real(wp) :: quantities(4)
 
-    !> Shaking force and moment, and force of the first drive [N, N m].
-    pure function row_quantities(joints) result(quantities)
-      type(joints_result_t), intent(in) :: joints
-      real(wp) :: quantities(4)
+    real(wp) :: factor(3), rates(2)
 
-      real(wp) :: factor(3), rates(2)
-
+    associate (state => variant%found%positions%state(position))
       rates = drive_rates(variant%model, speed, position)
       factor = [rates(1)**2, rates(2), 1.0_wp]
       quantities = [factor(1)*joints%shaking(:, 1, state) + factor(2)*joints%shaking(:, 2, &
         state), dot_product(factor, joints%drive(1, :, state))]
       if (size(joints%running_drive, 2) > 0) quantities(4) = quantities(4) + &
         joints%running_drive(1, speed, state)
-    end function row_quantities
-
-  end subroutine add_hung_balance
+    end associate
+  end function row_quantities
 
   !> Whether BALANCE cards could not be followed.
   pure function is_unbalanced(variant) result(is)

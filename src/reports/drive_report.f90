@@ -23,12 +23,12 @@ module drive_report
 
 contains
 
-  !> REPORT drive.
+  !> REPORT drive of four-bars, as REPORT torque was called.
   subroutine describe_drive(report)
     type(report_record_t), intent(out) :: report !! for the list of reports
 
-    report%kind = report_kind_t(name="drive", help="the driving torque with its parts, and "// &
-      "the power", pattern="REPORT drive [accuracy=]", default="accuracy=1e-6", &
+    report%kind = report_kind_t(name="drive", help="older name of REPORT torque", &
+      pattern="REPORT drive [accuracy=]", default="accuracy=1e-6", offered=.false., &
       studies="response", positions=.true., response=.true., linkages=four_bars)
     call add_table(report, drive_table_t(), "drive", "speed:speed crank:deg rigid,linear,"// &
       "quadratic,total:moment power:power error:-")

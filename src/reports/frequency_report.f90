@@ -201,7 +201,7 @@ contains
 
     notes = effects_notes(variant%model)
     associate (mechanism => variant%mechanism)
-      if (mechanism%is_four_bar) then
+      if (mechanism%is_four_bar .and. size(mechanism%pin_names) == 4) then
         call append_string(notes, "shapes are normalised: phi' M phi = 1; s runs along each "// &
           "link round the loop from "//mechanism%pin_names(1)%text//" to "// &
           mechanism%pin_names(4)%text)

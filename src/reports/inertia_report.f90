@@ -5,6 +5,7 @@ module inertia_report
   use kinds, only: wp
   use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
+  use models, only: is_of_four_bar
   use report_kinds, only: four_bars, other_linkages, report_kind_t
   use report_types, only: add_table, report_record_t, state_table_t, table_plan_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
@@ -36,7 +37,8 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="inertia", help="masses, their accelerations and "// &
-      "inertia forces", studies="inertia", positions=.true., masses=.true., reserved=.true., &
+      "inertia forces", pattern="REPORT inertia [format=]", studies="inertia", &
+      positions=.true., masses=.true., reserved=.true., &
       numbers=46, linkages=four_bars)
     call add_table(report, inertia_table_t(), "inertia", "speed:speed crank:deg mass:# "// &
       "link:name x,y:length ax,ay:acceleration Fx,Fy:force m:mass moment?:moment")
@@ -47,7 +49,8 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="inertia", help="of other linkages: masses and their "// &
-      "inertia forces", studies="inertia", positions=.true., masses=.true., reserved=.true., &
+      "inertia forces", pattern="REPORT inertia [format=]", studies="inertia", &
+      positions=.true., masses=.true., reserved=.true., &
       linkages=other_linkages)
     call add_table(report, inertia_table_t(), "inertia", "speed:speed crank:deg mass:# "// &
       "link:name x,y:length ax,ay:acceleration Fx,Fy:force m:mass moment:moment")
@@ -72,7 +75,7 @@ contains
       if (any(masses%kind == on_link)) call append_string(notes, &
         "masses fixed to links in rows of their own, "//mass_mark//"LINK")
     end associate
-    if (variant%mechanism%is_four_bar) then
+    if (is_of_four_bar(variant%model, "inertia")) then
       call append_string(notes, "masses at pins in rows of their own")
     else
       call append_string(notes, "masses at pins, with those of sliders, in rows of their own; "// &
@@ -148,7 +151,7 @@ contains
 
     type(mass_load_t) :: loads(size(variant%found%inertia%masses))
     real(wp) :: place(place_columns(variant%model)), rates(2), moment(merge(1, 0, &
-      has_moments(variant) .or. .not. variant%mechanism%is_four_bar))
+      has_moments(variant) .or. .not. is_of_four_bar(variant%model, "inertia")))
     integer :: i, state, next
 
     state = variant%found%positions%state(position)

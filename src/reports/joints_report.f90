@@ -1,4 +1,4 @@
-!> `reactions.dat`, `drive.dat` and `shaking.dat` of linkages that are no four-bars.
+!> `reactions.dat` of linkages that are no four-bars; `drives.dat` and `shaking.dat` of any.
 module joints_report
   use drive_motions, only: drive_rates, place_columns, table_place
   use joint_study, only: drives_at_speed, joint_t, joints_at_speed
@@ -20,7 +20,8 @@ module joints_report
   implicit none (type, external)
   private
 
-  public :: describe_joints, describe_drives, drive_columns, plan_joints, joint_owners, &
+  public :: describe_joints, describe_drives, describe_drives_as_drive, drive_columns, &
+    plan_joints, joint_owners, &
     owner_cell, drives_notes, reference_words, open_words, add_open_row, friction_note
 
   !> Where friction is in the columns, of a linkage with FRICTION cards.
@@ -36,7 +37,7 @@ module joints_report
     procedure, nopass :: add_position => add_joints
   end type joints_table_t
 
-  !> `drive.dat` of other linkages.
+  !> `drives.dat`.
   type, extends(state_table_t) :: drives_table_t
   contains
     procedure, nopass :: find_notes => drives_notes
@@ -59,24 +60,40 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="reactions", help="of other linkages: forces and "// &
-      "moments in all joints", pattern="REPORT reactions [columns=]", studies="joints", &
+      "moments in all joints", pattern="REPORT reactions [columns=] [format=]", studies="joints", &
       positions=.true., masses=.true., linkages=other_linkages)
     call add_table(report, joints_table_t(), "reactions", "speed:speed crank:deg pin,"// &
       "link:name fx,fy:force moment:moment")
   end subroutine describe_joints
 
-  !> REPORT drive of linkages that are no four-bars.
+  !> REPORT drives.
   subroutine describe_drives(report)
     type(report_record_t), intent(out) :: report !! for the list of reports
 
-    report%kind = report_kind_t(name="drive", help="of other linkages: the drives, shaking "// &
-      "force and moment", studies="joints", positions=.true., masses=.true., &
+    report%kind = report_kind_t(name="drives", help="torques or forces of all drives, shaking "// &
+      "force and moment", studies="joints", positions=.true., masses=.true.)
+    call add_drives_tables(report)
+  end subroutine describe_drives
+
+  !> REPORT drive of linkages that are no four-bars, as REPORT drives was called.
+  subroutine describe_drives_as_drive(report)
+    type(report_record_t), intent(out) :: report !! for the list of reports
+
+    report%kind = report_kind_t(name="drive", help="of other linkages: older name of "// &
+      "REPORT drives", offered=.false., studies="joints", positions=.true., masses=.true., &
       linkages=other_linkages)
-    call add_table(report, drives_table_t(), "drive", "speed:speed crank:deg drive:name "// &
-      "position:deg rate:rate force:moment")
+    call add_drives_tables(report)
+  end subroutine describe_drives_as_drive
+
+  !> Tables of the drives, the first by the name of the report.
+  subroutine add_drives_tables(report)
+    type(report_record_t), intent(inout) :: report !! with its name
+
+    call add_table(report, drives_table_t(), trim(report%kind%name), "speed:speed crank:deg "// &
+      "drive:name position:deg rate:rate force:moment")
     call add_table(report, shaking_table_t(), "shaking", "speed:speed crank:deg shaking_x,"// &
       "shaking_y:force shaking_moment:moment")
-  end subroutine describe_drives
+  end subroutine add_drives_tables
 
   !> On what the forces act, axes and signs, loads.
   pure subroutine joints_notes(variant, notes)

@@ -31,7 +31,7 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="kinematics", help="how the links move", &
-      pattern="REPORT kinematics [columns=]", studies="kinematics", positions=.true., &
+      pattern="REPORT kinematics [columns=] [format=]", studies="kinematics", positions=.true., &
       reserved=.true., linkages=four_bars, numbers=11)
     call add_table(report, kinematics_table_t(), "kinematics", "speed:speed crank,theta3,"// &
       "theta4:deg omega3,omega4:rate alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length "// &
@@ -45,7 +45,7 @@ contains
 
     notes = notes_on_linkage(variant)
     call append_string(notes, angle_note(variant))
-    associate (pins => variant%mechanism%pin_names)
+    associate (pins => variant%mechanism%pin_names(variant%mechanism%four_bar%pin))
       if (pins(2)%text /= "A" .or. pins(3)%text /= "B") call append_string(notes, "A: pin "// &
         pins(2)%text//"; B: pin "//pins(3)%text)
     end associate

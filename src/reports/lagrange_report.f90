@@ -42,7 +42,8 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its mechanism
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
-    call append_motion_notes(notes, variant%model, variant%mechanism)
+    call append_motion_notes(notes, variant%model, variant%mechanism, &
+      variant%mechanism%is_four_bar)
     call append_string(notes, "torque = M alpha2 + V + gravity + load, of the drive on link 2, "// &
       "counter-clockwise positive")
     call append_string(notes, "M: inertia reduced to the crank; dM: dM/dtheta2; "// &

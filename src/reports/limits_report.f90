@@ -34,7 +34,8 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="linkage", help="of other linkages: ranges, swings, "// &
-      "strokes, time ratios", studies="limits", linkages=other_linkages)
+      "strokes, time ratios", pattern="REPORT linkage [format=]", studies="limits", &
+      linkages=other_linkages)
     call add_table(report, limits_table_t(), "linkage", "part,quantity:name crank:deg "// &
       "value:see_unit unit:name")
   end subroutine describe_limits

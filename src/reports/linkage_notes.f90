@@ -77,7 +77,8 @@ contains
     type(variant_results_t), intent(in) :: variant !! with its mechanism
     character(len=:), allocatable :: note
 
-    associate (names => variant%mechanism%names, pins => variant%mechanism%pin_names)
+    associate (names => variant%mechanism%names(variant%mechanism%four_bar%body), &
+        pins => variant%mechanism%pin_names(variant%mechanism%four_bar%pin))
       note = "3: link "//names(2)%text//", angle from "//pins(2)%text//" to "//pins(3)%text// &
         "; 4: link "//names(3)%text//", angle from "//pins(4)%text//" to "//pins(3)%text
     end associate

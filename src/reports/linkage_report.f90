@@ -33,6 +33,7 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="linkage", help="class, limits and special positions", &
+      pattern="REPORT linkage [format=]", &
       studies="linkage", linkages=four_bars)
     call add_table(report, linkage_table_t(), "linkage", "branch,event:name crank,theta3,"// &
       "theta4,transmission_angle:deg", words=linkage_words())
@@ -45,7 +46,8 @@ contains
 
     integer :: i, branch
 
-    associate (found => variant%found%linkage, names => variant%mechanism%names)
+    associate (found => variant%found%linkage, &
+        names => variant%mechanism%names(variant%mechanism%four_bar%body))
       call append_string(notes, found%grashof)
       call append_string(notes, "mobility 3(n - 1) - 2j of n = "//to_string(found%links)// &
         " links, ground included, and j pins: "//to_string(found%mobility))

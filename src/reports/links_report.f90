@@ -41,7 +41,7 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="kinematics", help="of other linkages: how the links move", &
-      pattern="REPORT kinematics [columns=]", studies="kinematics", positions=.true., &
+      pattern="REPORT kinematics [columns=] [format=]", studies="kinematics", positions=.true., &
       reserved=.true., linkages=other_linkages)
     call add_table(report, links_table_t(), "kinematics", "speed:speed crank:deg link:name "// &
       "theta:deg omega:rate alpha:rad/s2")

@@ -133,27 +133,30 @@ contains
 
   !> The links and pins that numbers and letters in column names stand for, where these are not
   !! their names, and the crank's angular acceleration.
-  pure subroutine append_motion_notes(notes, model, mechanism)
+  pure subroutine append_motion_notes(notes, model, mechanism, as_four_bar)
     type(string_t), allocatable, intent(inout) :: notes(:) !! to which they are appended
     type(model_t), intent(in) :: model                     !! in SI
     type(mechanism_t), intent(in) :: mechanism             !! of the model
+    logical, intent(in) :: as_four_bar                     !! the table has such columns
 
     character(len=*), parameter :: links(3) = ["2", "3", "4"], pins(4) = ["O2", "A ", "B ", "O4"]
     character(len=:), allocatable :: words
     integer :: i
 
-    if (.not. mechanism%is_four_bar) then
+    if (.not. as_four_bar) then
       call append_string(notes, acceleration_note(model))
       return
     end if
     words = ""
     do i = 1, 3
-      if (mechanism%names(i)%text == links(i)) cycle
-      words = words//"; "//links(i)//": link "//mechanism%names(i)%text
+      associate (name => mechanism%names(mechanism%four_bar%body(i))%text)
+        if (name /= links(i)) words = words//"; "//links(i)//": link "//name
+      end associate
     end do
     do i = 1, 4
-      if (mechanism%pin_names(i)%text == trim(pins(i))) cycle
-      words = words//"; "//trim(pins(i))//": pin "//mechanism%pin_names(i)%text
+      associate (name => mechanism%pin_names(mechanism%four_bar%pin(i))%text)
+        if (name /= trim(pins(i))) words = words//"; "//trim(pins(i))//": pin "//name
+      end associate
     end do
     if (len(words) > 0) call append_string(notes, words(3:))
     call append_string(notes, acceleration_note(model))

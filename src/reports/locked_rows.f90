@@ -31,20 +31,13 @@ contains
     integer, intent(in) :: position, speed         !! numbers in the deck's lists
     type(lock_t) :: lock
 
-    logical :: four_bar, any_table
+    logical :: any_table
 
-    four_bar = variant%mechanism%is_four_bar
     any_table = len_trim(table) == 0
     associate (found => variant%found)
-      if (any_table .or. four_bar .and. any(table == [character(len=9) :: "reactions", &
-        "balance"])) call take(found%reactions%lock)
-      if (any_table .or. any(table == [character(len=9) :: "bearings", "frame"]) .or. &
-        .not. four_bar .and. any(table == [character(len=9) :: "reactions", "drive", "balance"])) &
-        call take(found%joints%lock)
-      if (any_table .or. table == "balance") then
-        call take(found%balance%balanced%lock)
-        call take(found%balance%balanced_joints%lock)
-      end if
+      if (any_table .or. any(table == [character(len=9) :: "reactions", "bearings", "frame", &
+        "drives", "drive", "balance"])) call take(found%joints%lock)
+      if (any_table .or. table == "balance") call take(found%balance%balanced%lock)
       if (any_table .or. table == "lagrange") call take(found%lagrange%lock)
       if (any_table .or. table == "friction") call take(found%friction%lock)
     end associate

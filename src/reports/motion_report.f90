@@ -6,13 +6,14 @@ module motion_report
     four_bar_event, motion_columns, motion_words, power_columns
   use kinds, only: long, wp
   use load_notes, only: potential_note, work_note
-  use models, only: drives_length, is_four_bar, model_t, report_number
+  use models, only: drives_length, is_of_four_bar, model_t, report_number
   use motion_forces_report, only: motion_forces_table_t
   use motion_pins_report, only: motion_pins_table_t, time_in_table
   use motion_study, only: free_drives, motion_result_t, motion_tolerance, undetermined_message
   use motor_cards, only: is_geared, motor_t
   use plan_words, only: group_names
   use report_cards, only: report_t
+  use four_bar_reactions, only: pin_forces_of
   use report_kinds, only: four_bars, other_linkages, report_kind_t
   use report_types, only: add_table, fit_columns, report_record_t, table_plan_t, whole_table_t
   use table_columns, only: cells, table_factor, table_layout_t, table_unit
@@ -36,7 +37,7 @@ module motion_report
 
   character(len=*), parameter :: line_feed = achar(10), default = "speed=0 pins=no", &
     pattern = "REPORT motion crank= [speed=0] end= step= [columns=accelerations,forces,power] "// &
-    "[pins=no|yes] [change_points=stop|through]"
+    "[pins=no|yes] [change_points=stop|through] [format=]"
 
   !> `motion.dat`.
   type, extends(whole_table_t) :: motion_table_t
@@ -83,7 +84,7 @@ contains
 
     energy = table_unit("energy", variant%model%outputs)
     associate (asked => variant%model%reports(report_number(variant%model, "motion")), &
-        four_bar => variant%mechanism%is_four_bar, motion => variant%found%motion)
+        four_bar => is_of_four_bar(variant%model, "motion"), motion => variant%found%motion)
       if (four_bar) then
         call append_string(notes, crank_note(variant))
         call append_string(notes, "torque: of the motor; "//potential_note)
@@ -201,7 +202,7 @@ contains
 
     integer, allocatable :: free(:)
 
-    if (is_four_bar(model)) then
+    if (is_of_four_bar(model, "motion")) then
       columns = four_bar_columns(model%reports(report_number(model, "motion")))
       return
     end if
@@ -244,8 +245,8 @@ contains
           call add_failed_row(rows, [time_in_table(model, i)], undetermined_message)
           cycle
         end if
-        if (variant%mechanism%is_four_bar) then
-          call four_bar_cells(model, asked, layout, motion, i, extra_values(asked, motion, i), row)
+        if (is_of_four_bar(model, "motion")) then
+          call four_bar_cells(model, asked, layout, motion, i, extra_values(variant, asked, i), row)
         else
           call general_cells(model, asked, layout, motion, i, row)
         end if
@@ -266,23 +267,24 @@ contains
     has = .true.
     if (allocated(motion%is_determined)) has = motion%is_determined(instant)
     ! Forces of linkages that are no four-bars have a table of their own.
-    if (.not. allocated(motion%samples(instant)%loop)) has = has .or. .not. &
-      (asked%with_accelerations .or. asked%with_power)
+    if (asked%kind%linkages /= four_bars) has = has .or. .not. (asked%with_accelerations .or. &
+      asked%with_power)
   end function has_details
 
-  !> What `columns=` adds to the row of an instant: accelerations, powers, and in a table of a
-  !! four-bar forces.
-  pure function extra_values(asked, motion, instant) result(values)
+  !> What `columns=` adds to the row of an instant of a four-bar: accelerations, powers, forces.
+  pure function extra_values(variant, asked, instant) result(values)
+    type(variant_results_t), intent(in) :: variant !! with its motion
     type(report_t), intent(in) :: asked
-    type(motion_result_t), intent(in) :: motion
     integer, intent(in) :: instant !! number
     real(wp), allocatable :: values(:)
 
     allocate (values(0))
-    if (asked%with_accelerations) values = [values, motion%acceleration(:, instant)]
-    if (asked%with_power) values = [values, motion%power(:, instant)]
-    if (asked%with_forces) values = [values, reshape(motion%force(:2, :, instant), &
-      [2*size(motion%joints)])]
+    associate (motion => variant%found%motion)
+      if (asked%with_accelerations) values = [values, motion%acceleration(:, instant)]
+      if (asked%with_power) values = [values, motion%power(:, instant)]
+      if (asked%with_forces) values = [values, pin_forces_of(variant%mechanism%four_bar, &
+        motion%joints, motion%force(:, :, instant))]
+    end associate
   end function extra_values
 
   !> The row of an instant behind its time, in the coordinates of the free drives.
@@ -341,7 +343,7 @@ contains
     associate (motion => variant%found%motion)
       if (allocated(motion%passages)) then
         do i = 1, min(most_listed, size(motion%passages))
-          if (variant%mechanism%is_four_bar) then
+          if (is_of_four_bar(variant%model, "motion")) then
             call append_text(buffer, four_bar_event(motion, i)//line_feed)
           else
             call append_text(buffer, event_words(variant, i)//line_feed)
@@ -368,8 +370,12 @@ contains
       length = table_unit("length", variant%model%outputs)
       if (drives_length(variant%model)) words = to_string(from_si(passage%position, length), 12)// &
         " "//length%name
-      words = "motion: at t="//to_string(passage%time, 12)//" s, the first drive at "//words// &
-        ", the linkage passes a dead point of "//group_names(mechanism, &
+      words = "motion: at t="//to_string(passage%time, 12)//" s, the first drive at "//words
+      if (passage%group == 0) then
+        words = words//", the linkage goes straight through a change point"
+        return
+      end if
+      words = words//", the linkage passes a dead point of "//group_names(mechanism, &
         mechanism%linkage%groups(passage%group))//" and goes on on its other branch"
     end associate
   end function event_words

@@ -13,7 +13,7 @@ module report_table
   use geometry_report, only: describe_geometry
   use inertia_report, only: describe_inertia, describe_other_inertia
   use intervals_report, only: describe_intervals
-  use joints_report, only: describe_drives, describe_joints
+  use joints_report, only: describe_drives, describe_drives_as_drive, describe_joints
   use kinematics_report, only: describe_kinematics
   use lagrange_report, only: describe_lagrange
   use limits_report, only: describe_limits
@@ -80,6 +80,7 @@ contains
     call add(describe_strains)
     call add(describe_peaks)
     call add(describe_drive)
+    call add(describe_drives_as_drive)
     call add(describe_drives)
     call add(describe_torque)
     call add(describe_validity)

@@ -17,7 +17,6 @@ module summary_report
   use locked_rows, only: is_locked_at, lock_at
   use models, only: accuracy_of_study, drives_length, has_law, model_t, needs_frequencies, &
     needs_response, report_number
-  use reactions_study, only: reaction_values, reactions_at_speed, shaking_values, torque_value
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, lay_out_columns, report_record_t, table_plan_t, &
     whole_table_t
@@ -286,7 +285,7 @@ contains
     integer, intent(in) :: position, speed    !! numbers
     type(value_t), intent(out) :: found
 
-    real(wp) :: rates(2), values(2*variant%model%modes), reactions(reaction_values), frame(6), &
+    real(wp) :: rates(2), values(2*variant%model%modes), frame(6), &
       motion(kinematic_values), drives(3, size(variant%mechanism%linkage%drives))
 
     associate (model => variant%model, results => variant%found, &
@@ -304,12 +303,7 @@ contains
       case ("kinematics")
         motion = kinematics_at(results%kinematics, state, rates(1), rates(2))
         found%value = motion(kinematic_values)
-      case ("reactions")
-        reactions = reactions_at_speed(results%reactions, state, rates(1), rates(2), speed)
-        if (name == "torque") found%value = reactions(torque_value)
-        if (name == "shaking_force") found%value = norm2(reactions(shaking_values(:2)))
-        if (name == "shaking_moment") found%value = reactions(shaking_values(3))
-      case ("drive")
+      case ("drives")
         drives = drives_at_speed(variant%mechanism%linkage, results%joints, state, &
           results%positions%crank(position), rates(1), rates(2), speed)
         frame = frame_at_speed(variant%mechanism%linkage, results%joints, state, rates(1), &
@@ -374,7 +368,7 @@ contains
     character(len=10) :: table
 
     table = report
-    if (report == "drive" .and. index(quantity, "shaking") == 1) table = "shaking"
+    if (report == "drives" .and. index(quantity, "shaking") == 1) table = "shaking"
   end function table_of
 
   !> Whether a report's table has a row at a position and speed.

@@ -87,7 +87,7 @@ contains
       call find_positions_of(variant, threads)
       call name_positions(variant)
       if (variant%mechanism%is_four_bar) then
-        call classify_linkage(linkage, found%class)
+        call classify_linkage(variant%mechanism%four_bar, found%class)
         call explain_positions(variant)
       else
         found%class = class_of_other()
@@ -110,7 +110,7 @@ contains
       if (needs_positions(model)) then
         call find_all_positions(linkage, model%crank%value, threads, variant%found%positions, &
           has_law(model))
-        if ((needs_study(model, "reactions") .or. needs_study(model, "joints") .or. &
+        if ((needs_study(model, "joints") .or. &
           needs_study(model, "friction") .or. needs_study(model, "frequencies")) .and. .not. &
           holds_at_change_points(variant%mechanism)) call refuse_change_points( &
           variant%found%positions)

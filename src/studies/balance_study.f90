@@ -4,21 +4,20 @@ module balance_study
   use balance_shafts, only: parts_of_shafts
   use balanced_linkages, only: balanced_linkage, counterweight_lump, counterweight_make_t, &
     counterweight_t, radius_of
-  use counterweights, only: find_counterweights
-  use hung_counterweights, only: find_hung_counterweights, obstacle_link, obstacle_loop, &
-    obstacle_none, obstacle_pin, obstacle_ram, obstacle_t
+  use harmonics_study, only: find_cancelling_weights
+  use hung_counterweights, only: obstacle_link, obstacle_loop, obstacle_none, obstacle_pin, &
+    obstacle_ram, obstacle_t
   use joint_study, only: find_joints, joints_result_t
   use kinds, only: wp
   use linkages, only: linkage_t, lump_t
   use partial_balance_study, only: balance_request_t, find_partial_balance, partial_balance_t
   use positions, only: positions_t
-  use reactions_study, only: find_reactions, reactions_result_t, shaking_values, torque_value
   use rigid_bodies, only: linkage_mass_centre, rigid_bodies_of, rigid_body_t, total_mass
   implicit none (type, external)
   private
 
   public :: balance_result_t, balance_request_t, counterweight_make_t, find_balance, &
-    find_hung_balance, has_balanced
+    has_balanced
   public :: obstacle_t, obstacle_none, obstacle_loop, obstacle_ram, obstacle_link, obstacle_pin
 
   type :: balance_result_t
@@ -31,49 +30,15 @@ module balance_study
     real(wp) :: mass = 0.0_wp                 !! of all moving parts, without counterweights [kg]
     real(wp), allocatable :: centre(:, :)     !! (2, states) mass centre, without counterweights
                                               !! [m]; zeros where there is no pose
-    type(reactions_result_t) :: balanced      !! reactions of a four-bar with counterweights
-    type(joints_result_t) :: balanced_joints  !! of another linkage, if it has any
+    type(joints_result_t) :: balanced         !! forces with counterweights, if there are any
     type(partial_balance_t), allocatable :: partial !! for the aims and shafts that are requested
   end type balance_result_t
 
 contains
 
-  !> Counterweights, mass centre, and the reactions of the balanced four-bar, once for all speeds.
-  !! Berkof and Lowen 1969, see `counterweights`; for other aims, see `partial_balance_study`.
+  !> Mass centre, counterweights, and the forces with these, once for all speeds. They cancel the
+  !! shaking force, see `find_cancelling_weights`; for other aims, see `partial_balance_study`.
   subroutine find_balance(linkage, elements, positions, threads, found, request, speeds, &
-      accelerations)
-    type(linkage_t), intent(in) :: linkage       !! a four-bar, without counterweights
-    integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
-                                                 !! 0: distributed
-    type(positions_t), intent(in) :: positions   !! of the run
-    integer, intent(in) :: threads               !! number of OpenMP threads
-    type(balance_result_t), intent(out) :: found !! for all positions and speeds
-    type(balance_request_t), intent(in), optional :: request !! other aims, balance shafts
-    real(wp), intent(in), optional :: speeds(:, :) !! (speeds, states) of the first drive, for loads
-                                                   !! that depend on it [rad/s] or [m/s]; absent:
-                                                   !! without these
-    real(wp), intent(in), optional :: accelerations(:, :) !! (speeds, states) likewise, for friction
-                                                   !! [rad/s²] or [m/s²]; absent: none
-
-    type(linkage_t) :: balanced
-
-    call find_centres(linkage, elements, positions, threads, found)
-    if (present(request)) then
-      call take_partial(request, linkage, elements, threads, found)
-      balanced = found%partial%linkage
-    else
-      found%weights = find_counterweights(linkage, elements)
-      balanced = balanced_linkage(linkage, found%weights)
-    end if
-    call find_lumps(linkage, found)
-    call find_reactions(balanced, elements, positions, threads, found%balanced, speeds, &
-      accelerations)
-    call add_shafts(balanced, positions, found)
-  end subroutine find_balance
-
-  !> The same of any other linkage, with counterweights where links hang on each other without a
-  !! loop, see `hung_counterweights`.
-  subroutine find_hung_balance(linkage, elements, positions, threads, found, request, speeds, &
       accelerations)
     type(linkage_t), intent(in) :: linkage       !! of any kind, without counterweights
     integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
@@ -95,15 +60,15 @@ contains
       call take_partial(request, linkage, elements, threads, found)
       balanced = found%partial%linkage
     else
-      call find_hung_counterweights(linkage, elements, found%weights, found%obstacle)
+      call find_cancelling_weights(linkage, elements, found%weights, found%obstacle)
       balanced = balanced_linkage(linkage, found%weights)
     end if
     call find_lumps(linkage, found)
     if (.not. has_balanced(found)) return
-    call find_joints(balanced, elements, positions, threads, found%balanced_joints, speeds, &
+    call find_joints(balanced, elements, positions, threads, found%balanced, speeds, &
       accelerations)
     call add_shafts(balanced, positions, found)
-  end subroutine find_hung_balance
+  end subroutine find_balance
 
   !> Whether there is a balanced linkage beside the given one.
   pure function has_balanced(found) result(has)
@@ -139,17 +104,10 @@ contains
     do i = 1, size(positions%states)
       if (allocated(positions%states(i)%error)) cycle
       part = parts_of_shafts(balanced, positions%states(i)%crank)
-      if (allocated(found%balanced%unit)) then
-        associate (unit => found%balanced%unit(:, :, i))
-          unit(shaking_values, :) = unit(shaking_values, :) + part(:3, :)
-          unit(torque_value, :) = unit(torque_value, :) + part(4, :)
-        end associate
-      else
-        associate (joints => found%balanced_joints)
-          joints%shaking(:, :, i) = joints%shaking(:, :, i) + part(:3, :)
-          joints%drive(1, :, i) = joints%drive(1, :, i) + part(4, :)
-        end associate
-      end if
+      associate (joints => found%balanced)
+        joints%shaking(:, :, i) = joints%shaking(:, :, i) + part(:3, :)
+        joints%drive(1, :, i) = joints%drive(1, :, i) + part(4, :)
+      end associate
     end do
   end subroutine add_shafts
 

@@ -9,18 +9,19 @@ module harmonics_study
   use errors, only: error_t
   use crank_cycle, only: cycle_t, cycle_values, drive_torque, find_largest_value, quantity_count, &
     quantity_names, shaking_moment, turns_freely, usual_values
+  use four_bar_loops, only: find_four_bar, four_bar_t, is_plain
   use harmonics, only: highest_harmonic, spectrum_of, spectrum_t
   use hung_counterweights, only: find_hung_counterweights, obstacle_t
   use interruption, only: was_interrupted
   use kinds, only: wp
   use linkage_paths, only: period_of
-  use linkages, only: is_dyad_linkage, linkage_t
+  use linkages, only: linkage_t
   use settled_cycles, only: find_settled_cycles, least_share
   implicit none (type, external)
   private
 
   public :: harmonics_result_t, harmonic_t, find_harmonics, quantity_count, quantity_names, &
-    highest_harmonic, is_moment, has_cycle, has_settled
+    highest_harmonic, is_moment, has_cycle, has_settled, find_cancelling_weights
 
   !> A quantity over a cycle of n turns: mean + Σ amplitude cos(k θ2/n + phase), all in [N] or [N m]
   !! but phases.
@@ -136,8 +137,11 @@ contains
     type(linkage_t), intent(in) :: linkage !! of any kind
     logical :: has
 
-    if (is_four_bar(linkage)) then
-      has = turns_freely(linkage)
+    type(four_bar_t), allocatable :: four_bar
+
+    call find_four_bar(linkage, four_bar)
+    if (allocated(four_bar)) then
+      has = turns_freely(linkage, four_bar)
     else
       has = turns_fully(linkage)
     end if
@@ -152,25 +156,26 @@ contains
     type(counterweight_t), allocatable :: weights(:)
     type(obstacle_t) :: obstacle
 
-    if (is_four_bar(linkage)) then
-      weights = find_counterweights(linkage, elements)
-    else
-      call find_hung_counterweights(linkage, elements, weights, obstacle)
-    end if
+    call find_cancelling_weights(linkage, elements, weights, obstacle)
     allocate (linkages(merge(2, 1, size(weights) > 0)))
     linkages(1) = linkage
     if (size(linkages) > 1) linkages(2) = balanced_linkage(linkage, weights)
   end subroutine balance_linkage
 
-  !> Whether a linkage is a four-bar, without pins beside those of its loop.
-  pure function is_four_bar(linkage) result(is)
-    type(linkage_t), intent(in) :: linkage
-    logical :: is
+  !> Counterweights that cancel the shaking force: of a four-bar as Berkof and Lowen 1969 have them,
+  !! see `counterweights`; where links hang on each other without a loop, see `hung_counterweights`.
+  pure subroutine find_cancelling_weights(linkage, elements, weights, obstacle)
+    type(linkage_t), intent(in) :: linkage                       !! of any kind, without them
+    integer, intent(in) :: elements(:)                           !! (bodies) as of `find_harmonics`
+    type(counterweight_t), allocatable, intent(out) :: weights(:) !! none where there is an obstacle
+    type(obstacle_t), intent(out) :: obstacle                    !! why there are none
 
-    is = is_dyad_linkage(linkage) .and. size(linkage%bodies) == 3 .and. &
-      size(linkage%is_ground) == 4 .and. count(linkage%is_ground) == 2 .and. &
-      size(linkage%turns) == 0
-  end function is_four_bar
+    if (is_plain(linkage)) then
+      weights = find_counterweights(linkage, elements)
+    else
+      call find_hung_counterweights(linkage, elements, weights, obstacle)
+    end if
+  end subroutine find_cancelling_weights
 
   !> Harmonics of all quantities of a linkage at one speed.
   pure subroutine find_spectra(turn, speed, acceleration, number, largest, measure, found)

@@ -3,8 +3,9 @@
 module kinematics_study
   use constants, only: degree
   use kinds, only: wp
+  use four_bar_loops, only: four_bar_t
   use linkages, only: linkage_t
-  use poses, only: body_angle, transmission_angle
+  use poses, only: angle_along, transmission_angle
   use positions, only: positions_t
   implicit none (type, external)
   private
@@ -32,8 +33,9 @@ contains
 
   !> Kinematics at all positions, once for all speeds: Ulker 2010 (2.1) to (2.38), which are solved
   !! in `poses` and `kinematic_coefficients`.
-  subroutine find_kinematics(linkage, positions, threads, found)
+  subroutine find_kinematics(linkage, four_bar, positions, threads, found)
     type(linkage_t), intent(in) :: linkage          !! a four-bar
+    type(four_bar_t), intent(in) :: four_bar        !! that it is
     type(positions_t), intent(in) :: positions      !! of the run
     integer, intent(in) :: threads                  !! number of OpenMP threads
     type(kinematics_result_t), intent(out) :: found !! for all positions and speeds
@@ -52,12 +54,12 @@ contains
     do i = 1, n
       associate (state => positions%states(i))
         if (allocated(state%error)) cycle
-        found%angle(:, i) = [body_angle(linkage, state%pose, 2), &
-          body_angle(linkage, state%pose, 3)]/degree
-        found%turn(:, i) = state%coefficients%turn(2:3)
-        found%turn_slope(:, i) = state%coefficients%turn_slope(2:3)
-        found%pin(:, i) = [state%pose%pin(:, 2), state%pose%pin(:, 3)]
-        found%transmission(i) = transmission_angle(linkage, state%pose, 1)/degree
+        found%angle(:, i) = [angle_along(linkage, state%pose, four_bar%body(2), four_bar%pin(2)), &
+          angle_along(linkage, state%pose, four_bar%body(3), four_bar%pin(4))]/degree
+        found%turn(:, i) = state%coefficients%turn(four_bar%body(2:))
+        found%turn_slope(:, i) = state%coefficients%turn_slope(four_bar%body(2:))
+        found%pin(:, i) = [state%pose%pin(:, four_bar%pin(2)), state%pose%pin(:, four_bar%pin(3))]
+        found%transmission(i) = transmission_angle(linkage, state%pose, four_bar%dyad)/degree
       end associate
     end do
     !$omp end parallel do

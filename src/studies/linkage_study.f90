@@ -1,6 +1,7 @@
 !> Class, limits and special positions of a four-bar, on both branches.
 module linkage_study
   use branch_ranges, only: branch_range_t, find_branch_ranges
+  use four_bar_loops, only: four_bar_t
   use four_bar_limits, only: crank_reach, grashof_class, limit_angles, reach_t
   use kinds, only: wp
   use linkages, only: linkage_t, mobility
@@ -42,11 +43,11 @@ module linkage_study
 contains
 
   !> Grashof class and limit positions.
-  pure subroutine classify_linkage(linkage, class)
-    type(linkage_t), intent(in) :: linkage      !! a four-bar
+  pure subroutine classify_linkage(four_bar, class)
+    type(four_bar_t), intent(in) :: four_bar    !! that the linkage is
     type(linkage_class_t), intent(out) :: class !! Grashof class and limits
 
-    associate (ground => linkage%ground_position(:, [1, 4]), length => linkage%bodies%length)
+    associate (ground => four_bar%ground, length => four_bar%length)
       class%grashof = trim(grashof_class(norm2(ground(:, 2) - ground(:, 1)), length))
       class%reach = crank_reach(ground, length)
       class%limits = modulo(limit_angles(class%reach), 360.0_wp)
@@ -66,16 +67,17 @@ contains
 
   !> Class, mobility, ranges and special positions of both branches, whichever of them the deck's
   !! linkage is on.
-  pure subroutine find_linkage(linkage, found)
+  pure subroutine find_linkage(linkage, four_bar, found)
     type(linkage_t), intent(in) :: linkage       !! a four-bar
+    type(four_bar_t), intent(in) :: four_bar     !! that it is
     type(linkage_result_t), intent(out) :: found !! open branch first
 
     type(special_position_t), allocatable :: positions(:)
     real(wp) :: ground(2, 2), length(3)
     integer :: i
 
-    ground = linkage%ground_position(:, [1, 4])
-    length = linkage%bodies%length
+    ground = four_bar%ground
+    length = four_bar%length
     found%links = size(linkage%bodies) + 1
     found%mobility = mobility(linkage)
     found%grashof = trim(grashof_class(norm2(ground(:, 2) - ground(:, 1)), length))

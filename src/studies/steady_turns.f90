@@ -2,8 +2,9 @@
 module steady_turns
   use crank_cycle, only: turns_freely
   use crank_limits, only: turns_fully
+  use four_bar_loops, only: find_four_bar, four_bar_t
   use linkage_paths, only: has_change_points
-  use linkages, only: is_dyad_linkage, linkage_t
+  use linkages, only: linkage_t
   implicit none (type, external)
   private
 
@@ -17,13 +18,11 @@ contains
     type(linkage_t), intent(in) :: linkage !! of any kind, with its path
     logical :: has
 
-    logical :: is_four_bar
+    type(four_bar_t), allocatable :: four_bar
 
-    is_four_bar = size(linkage%bodies) == 3 .and. size(linkage%is_ground) == 4 .and. &
-      is_dyad_linkage(linkage)
-    if (is_four_bar) is_four_bar = all(linkage%is_ground .eqv. [.true., .false., .false., .true.])
-    if (is_four_bar) then
-      has = turns_freely(linkage)
+    call find_four_bar(linkage, four_bar)
+    if (allocated(four_bar)) then
+      has = turns_freely(linkage, four_bar)
     else
       has = turns_fully(linkage) .and. .not. has_change_points(linkage)
     end if

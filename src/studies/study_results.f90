@@ -17,7 +17,6 @@ module study_results
   use linkage_study, only: linkage_class_t, linkage_result_t
   use loci_study, only: loci_t
   use positions, only: positions_t
-  use reactions_study, only: reactions_result_t
   use response_types, only: response_t
   use stability_types, only: intervals_t, stability_t
   use sizing_study, only: sizing_result_t
@@ -36,14 +35,13 @@ module study_results
     type(geometry_result_t) :: geometry
     type(inertia_result_t) :: inertia
     type(point_coefficients_t), allocatable :: points(:, :) !! (points, states)
-    type(reactions_result_t) :: reactions
     type(joints_result_t) :: joints
     type(friction_result_t) :: friction
     type(lagrange_result_t) :: lagrange
     type(balance_result_t) :: balance
     type(harmonics_result_t) :: harmonics
     type(linkage_result_t) :: linkage                       !! of a four-bar
-    type(limits_result_t) :: limits                         !! of any other linkage
+    type(limits_result_t) :: limits                         !! of any linkage
     type(equilibria_t) :: equilibria
     type(sizing_result_t) :: sizing
     type(motion_result_t) :: motion

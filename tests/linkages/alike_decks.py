@@ -349,7 +349,7 @@ class Machine:
                          inertia="distributed", effects=r.choice(("", "", "rotary")))
         self.keys["reports"] = ["kinematics", "reactions", "bearings", "frame", "lagrange", "inertia", "linkage", "pins"] + \
             (["points"] if self.points else [])
-        self.keys["drive"] = True
+        self.keys["drives"] = True
         if r.random() < 0.3:
             self.keys["reports"] += ["balance"]
         if r.random() < 0.3 and not self.keys["alpha"]:
@@ -634,7 +634,7 @@ class View:
     def reports(self):
         reports = list(self.machine.keys["reports"])
         if self.is_other() and self.machine.family == "rigid":
-            reports.append("drive")
+            reports.append("drives")
         return reports
 
     def is_other(self):

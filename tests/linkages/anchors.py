@@ -151,7 +151,7 @@ def engine(options):
 
     anchor.motion_of_pins({"A": a, "B": b}, D("0.145"))
     anchor.motion_of_links({"rod": lambda crank: direction(a(crank), b(crank)), "crank": lambda crank: crank})
-    drives = dict(anchor.rows("drive", "drive"))
+    drives = dict(anchor.rows("drives", "drive"))
     for crank, rows in anchor.rows("reactions", "pin", "link"):
         acceleration = {pin: tuple(s * rate**2 + f * alpha for f, s in zip(*derive(place, crank)[1:]))
                         for pin, place in (("A", a), ("B", b))}
@@ -206,7 +206,7 @@ def pumping_unit(options):
     anchor.motion_of_pins({"E": e, "W": w}, 72 * inch)
     heights = [rows[("W",)]["y"] for _, rows in anchor.rows("pins", "pin")]
     anchor.add("stroke", max(heights) - min(heights), D("54.16"), 54, 1e-4, "rise of W (54 in in the unit's name)")
-    for crank, rows in anchor.rows("drive", "drive"):
+    for crank, rows in anchor.rows("drives", "drive"):
         lift = derive(w, crank)[1][1] / inch
         anchor.add("torque", rows[("crank",)]["force"], 8000 * lift, 8000 * 24, 1e-13, f"torque at {float(crank):.4f}")
     return anchor.report()
@@ -287,7 +287,7 @@ def squeezer(options):
 def squeezer_force(options, name, tolerance, force=()):
     """The motor's torque, 0.033 N m, from the published motion of all seven bodies and the spring's force on K3."""
     anchor = Anchor(name, options)
-    for _, rows in anchor.rows("drive", "drive"):
+    for _, rows in anchor.rows("drives", "drive"):
         anchor.add("torque", rows[("K1",)]["force"], D("0.033"), D("0.033"), tolerance, "torque of the motor")
     for _, rows in anchor.rows("reactions", "pin", "link"):
         for axis, value in zip("xy", force):
@@ -321,14 +321,14 @@ def norton(options):
     anchor = Anchor("norton", options)
     printed = (("kinematics", "link", "coupler", "theta", "20.92"), ("kinematics", "link", "rocker", "theta", "104.41"),
                ("bearings", "pin link", "O2 crank", "fx", "-117.65"), ("bearings", "pin link", "O2 crank", "fy", "-107.84"),
-               ("drive", "drive", "crank", "force", "243.23"))
+               ("drives", "drive", "crank", "force", "243.23"))
     for table, columns, names, column, value in printed:
         for _, rows in anchor.rows(table, *columns.split()):
             anchor.add("published", rows[tuple(names.split())][column], D(value), 1, 0.005, f"{column} of {names}")
     # His shaking force is that on the frame: -(F12 + F14), and its moment -T12 + R14 x F41.
     for _, rows in anchor.rows("bearings", "pin", "link"):
         (force, other), (_, frame) = (rows[("O2", "crank")], rows[("O4", "rocker")]), next(anchor.rows("frame"))
-        (_, drive) = next(anchor.rows("drive", "drive"))
+        (_, drive) = next(anchor.rows("drives", "drive"))
         for axis in "xy":
             anchor.add("force", frame[()]["frame_" + axis], -D(force["f" + axis]) - D(other["f" + axis]), 100, 1e-14, "frame_" + axis)
         anchor.add("torque", frame[()]["frame_moment"], -D(drive[("crank",)]["force"]) - 19 * D(other["fy"]), 1000, 1e-14, "frame_moment")

@@ -123,7 +123,7 @@ class Place:
         self.links = index(tables["kinematics"], "link")
         self.pins = index(tables["pins"], "pin")
         self.reactions = index(tables["reactions"], "pin", "link") if "reactions" in tables else {}
-        self.drives = index(tables["drive"], "drive") if "drive" in tables else {}
+        self.drives = index(tables["drives"], "drive") if "drives" in tables else {}
         self.units = deck.units.results
         self.condition = model.condition(state.q)
         self.size = model.size / float(self.units["length"])
@@ -207,7 +207,7 @@ class Place:
             if not self.drives:
                 break
             drive = row[1]
-            table = row_of(self.drives, self.key + (drive["name"],), "drive.dat")
+            table = row_of(self.drives, self.key + (drive["name"],), "drives.dat")
             kinds = ("length", "rate", "force") if drive["linear"] else ("angle", "speed", "torque")
             place = model.drive_value(drive, state.first) / units[kinds[0]]
             if drive["linear"]:

@@ -3,7 +3,7 @@
     force_tables.py SEED COUNT [--program PATH] [--scratch FOLDER] [--inputs FOLDER]
 
 The linkages of random_loads.py, with every load, and with --inputs the rigid linkages of the decks there, their positions at a speed.
-Newton's and Euler's law of each link from the rows of reactions.dat at its pins, of the blocks on it and of the drives in drive.dat,
+Newton's and Euler's law of each link from the rows of reactions.dat at its pins, of the blocks on it and of the drives in drives.dat,
 with masses and loads of the deck; of each pin and its block; of the whole from the rows at the ground against frame.dat; forces of
 bearings.dat against those of reactions.dat.  Of a four-bar the couples of friction are those of friction.dat.  What is left is at most
 1e-10 of the largest force, or moment, of the position.
@@ -25,7 +25,7 @@ from tables import run
 
 ALLOWED = 1e-10
 NO_FORCE = 1e-9  # N: at rest on springs without weight all forces are rounding
-REPORTS = ("kinematics", "pins", "reactions", "drive", "bearings", "frame about=0,0", "friction")
+REPORTS = ("kinematics", "pins", "reactions", "drives", "bearings", "frame about=0,0", "friction")
 # Cards of other reports, and those that the copy of a deck has of its own.
 DROPPED = {"MESH", "MODES", "SOLVER", "GAUGE", "DAMPING", "BALANCE", "MOTOR", "EFFECTS", "REPORT", "END", "INERTIA", "TITLE", "LAW", "TIME",
            "SPEED", "ALPHA"}
@@ -97,7 +97,7 @@ class Place:
     def drives(self):
         """Torques, forces along lines; those of rams are in their pins."""
         for drive in self.deck.drives:
-            value = row_of(self.tables["drive"], self.key + (drive["name"],), "drive.dat")["force"]
+            value = row_of(self.tables["drive"], self.key + (drive["name"],), "drives.dat")["force"]
             words = [word for word in drive["words"] if word.lower() != "free"]
             if not words or words[0].lower() == "against":
                 torque = value * self.units["torque"]
@@ -219,7 +219,7 @@ def check(text, program, folder, name, most=7):
         if table.failed:
             raise Wrong(f"{table_name}: {table.failed[0]}")
     long = compare.long_tables(deck, found)
-    tables = {"reactions": index(long["reactions"], "pin", "link"), "drive": index(long["drive"], "drive"), "frame": index(found["frame"]),
+    tables = {"reactions": index(long["reactions"], "pin", "link"), "drive": index(long["drives"], "drive"), "frame": index(found["frame"]),
               "bearings": index(found["bearings"], "pin", "link"), "is_four_bar": "theta3" in found["kinematics"].names}
     if "friction" in found:
         tables["friction"] = index(found["friction"], "pin", "link")
@@ -252,7 +252,7 @@ def with_reports(lines):
     four_bar = len(links) == 3 and all(len(pins) == 2 for pins in links) and len(drives) == 1 and len(drives[0].split()) == 2 \
         and not any(line.startswith("SLIDER") for line in lines) and not any(point in pins for point in points)
     reports = [report for report in REPORTS if (report != "friction" or any(line.startswith("FRICTION") for line in lines))
-               and not (four_bar and report == "drive")]
+               and not (four_bar and report == "drives")]
     return "\n".join(lines + ["REPORT " + report for report in reports]) + "\n"
 
 

@@ -38,7 +38,7 @@ KINDS = {
     "reactions": {"fx": "v", "moment": "p"}, "bearings": {"fx": "v", "axial": "r", "transverse": "rp", "magnitude": "s"},
     "frame": {"shaking_x": "v", "shaking_moment": "p", "frame_x": "v", "frame_moment": "p"},
     "shaking": {"shaking_x": "v", "shaking_moment": "p"},
-    "drive": {"position": "a", "rate": "p", "force": "p"}, "transmission": {"transmission_angle": "s"},
+    "drives": {"position": "a", "rate": "p", "force": "p"}, "transmission": {"transmission_angle": "s"},
     "lagrange": {"M": "s", "dM": "p", "V": "p", "gravity": "p", "load": "p", "torque": "p", "kinetic": "s", "potential": "s"},
     "inertia": {"Fx": "v", "m": "s"},
     "friction": {"force": "s", "moment": "p", "lost": "s"},
@@ -241,10 +241,10 @@ class Tables:
                 pin, link = (column[:2], links[column[1]]) if column[0] == "O" else (column[0], links[column[1]])
                 x, y = self.back(row[column] * self.units[column], row[column[:-1] + "y"] * self.units[column])
                 self.put(name, key + (pin, link), {"fx": ("v", x, "force"), "fy": ("v", y, "force")})
-            self.put("drive", key + ("crank",), {"force": ("s", self.view.mirror * row["torque"] * self.units["torque"], "moment")})
+            self.put("drives", key + ("crank",), {"force": ("s", self.view.mirror * row["torque"] * self.units["torque"], "moment")})
         self.take_rows("shaking", table.rows)
 
-    def take_drive(self, name, table):
+    def take_drives(self, name, table):
         if "drive" in table.names:
             self.units["force"] = self.units["force"] or 1.0
             kinds = {"force": "p"}
@@ -486,7 +486,7 @@ def compare(one, other, by_rounding=None):
         force, size = largest.get("force", 0.0), one.machine.size
         if "moment" in largest:                    # where all moments are round-off of forces
             largest["moment"] = max(largest["moment"], 0.1 * force * size)
-        if name == "drive":
+        if name == "drives":
             largest["moment"] = max([largest.get("moment", 0.0)] + [0.1 * size * largest_of(one, other, t).get("force", 0.0)
                                                                     for t in ("reactions", "bearings", "frame")])
         for key in common:

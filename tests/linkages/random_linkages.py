@@ -22,7 +22,7 @@ from tables import run
 
 SMALLEST, LARGEST = 4, 10
 WORST_CONDITION = 300.0
-REPORTS = ("kinematics", "pins", "reactions", "drive")
+REPORTS = ("kinematics", "pins", "reactions", "drives")
 KINEMATIC = ("kinematics", "pins")
 
 
@@ -175,7 +175,7 @@ class Case:
         if self.four_bar:
             lines.append("BRANCH " + self._branch())
         lines += ["REPORT " + report for report in self.reports
-                  if (self.loaded or report in KINEMATIC) and not (self.four_bar and report in ("pins", "drive"))]
+                  if (self.loaded or report in KINEMATIC) and not (self.four_bar and report in ("pins", "drives"))]
         return "\n".join(lines) + "\n"
 
     def text(self, step):

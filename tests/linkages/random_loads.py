@@ -21,7 +21,7 @@ from random_linkages import Case as Bare, run
 from solver import Failure, Model, positions
 from units import FACTORS
 
-REPORTS = ("kinematics", "pins", "reactions", "drive", "bearings", "frame about=0.3,-0.2", "lagrange")
+REPORTS = ("kinematics", "pins", "reactions", "drives", "bearings", "frame about=0.3,-0.2", "lagrange")
 
 
 class Case(Bare):

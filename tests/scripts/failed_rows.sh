@@ -129,11 +129,11 @@ check "a compression above kGA by a nodal solver" above_shear_stiffness elements
 leaving_block() {
   printf '%s\n' "UNITS mm kg s" "GROUND O2 0 0" "GROUND O4 0 -150" "LINK crank O2 A length=60 mass=1 inertia=500" \
     "LINK lever O4 C length=200 mass=1 inertia=5000" "SLIDER A lever mass=0.1" "DRIVE crank" "INERTIA distributed" \
-    "CRANK 0 to 360 step 5" "SPEED 10" "REPORT drive" "REPORT linkage" "REPORT geometry crank=0,90" \
+    "CRANK 0 to 360 step 5" "SPEED 10" "REPORT drives" "REPORT linkage" "REPORT geometry crank=0,90" \
     "REPORT motion crank=0 speed=10 end=1 step=0.05" >"$scratch/slot.deck"
   run 1 --out "$scratch/out" "$scratch/slot.deck" && says "slot.deck:6:10: warning: the block at A leaves 'lever' between crank 50.554 and 129.45" &&
     says "crank 55 to 125 deg, 15 positions: the block at A leaves 'lever'" && says "crank 50.5538644124 deg: the block at A leaves 'lever'" || return 1
-  [ "$(grep -c "^# failed .*: the block at A leaves 'lever'" "$scratch/out/slot/drive.dat")" -eq 15 ] || { echo "not 15 failed rows"; return 1; }
+  [ "$(grep -c "^# failed .*: the block at A leaves 'lever'" "$scratch/out/slot/drives.dat")" -eq 15 ] || { echo "not 15 failed rows"; return 1; }
   grep -q "^# failed crank=90 : the block at A leaves 'lever'" "$scratch/out/slot/geometry.dat" || { echo "the drawing does not tell"; return 1; }
   grep -q "^ *A  *range_from  1.2944" "$scratch/out/slot/linkage.dat" || { echo "the range does not end"; return 1; }
   echo "POINT tip lever along=210" >>"$scratch/slot.deck"

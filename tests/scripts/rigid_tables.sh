@@ -32,13 +32,13 @@ CRANK    60
 SPEED    1
 REPORT   reactions
 REPORT   bearings
-REPORT   drive
+REPORT   drives
 END_OF_DECK
   run 0 --quiet --out "$scratch/out" "$scratch/block.deck" || return 1
   near "$(value "$scratch/out/block/reactions.dat" "C bed" 5)" 18.862545696950583 &&
     near "$(value "$scratch/out/block/reactions.dat" "C bed" 6)" 94.31272848475291 &&
     near "$(value "$scratch/out/block/bearings.dat" "C bed" 9)" 96.18048858478663 &&
-    near "$(value "$scratch/out/block/drive.dat" "crank" 6)" 19.179079511227595
+    near "$(value "$scratch/out/block/drives.dat" "crank" 6)" 19.179079511227595
 }
 
 # A lever that torques of 5 turn on in the sense in which it turns: it runs in both, and so does its mirror image. Its weight

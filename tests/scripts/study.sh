@@ -66,7 +66,7 @@ def recipe(quantity):
     rigid = {"torque": ("reactions", one("torque")), "shaking_force": ("reactions", size("shaking_x", "shaking_y")),
              "shaking_moment": ("reactions", one("shaking_moment"))}
     if not four_bar:
-        rigid = {"torque": ("drive", drive), "shaking_force": ("shaking", size("shaking_x", "shaking_y")),
+        rigid = {"torque": ("drives", drive), "shaking_force": ("shaking", size("shaking_x", "shaking_y")),
                  "shaking_moment": ("shaking", one("shaking_moment"))}
     if quantity in rigid:
         return *rigid[quantity], None
@@ -169,7 +169,7 @@ check "least, mean and greatest of a four-bar" of_four_bars
 of_others() {
   sed -e '/^ *REPORT/d' -e '/^END/d' -e 's/^SPEED.*/SPEED 150 200 rpm/' -e 's/step 5/step 45/' inputs/damped_engine.deck |
     { cat; echo "$full"; echo "$elastic"; cat <<'END_OF_CARDS'; } | study 0 damped
-REPORT   drive
+REPORT   drives
 REPORT   summary of=f1,f2,zeta1,zeta2,torque,shaking_force,shaking_moment,frame_force,bearing_force,strain,stress,displacement,elastic_torque accuracy=1e-4
 END_OF_CARDS
 }
@@ -178,7 +178,7 @@ check "least, mean and greatest of a slider-crank with dampers" of_others
 # A drive with a law: the place of a value has its time.
 of_a_law() {
   sed -e '/^ *REPORT/d' -e '/^END/d' inputs/indexing.deck | { cat; cat <<'END_OF_CARDS'; } | study 0 law || return 1
-REPORT   drive
+REPORT   drives
 REPORT   bearings
 REPORT   frame
 REPORT   summary of=torque,shaking_force,shaking_moment,bearing_force,frame_force
@@ -206,7 +206,7 @@ END_OF_DECK
 }
 of_lengths() {
   { ram; cat <<'END_OF_CARDS'; } | study 0 ram || return 1
-REPORT   drive
+REPORT   drives
 REPORT   bearings
 REPORT   summary of=torque,shaking_force,bearing_force
 END_OF_CARDS

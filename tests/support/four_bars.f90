@@ -1,11 +1,12 @@
 !> Four-bars of numbers, without a deck.
 module four_bars
+  use four_bar_loops, only: find_four_bar, four_bar_t
   use kinds, only: wp
   use linkages, only: linkage_t
   implicit none (type, external)
   private
 
-  public :: new_four_bar
+  public :: new_four_bar, loop_of
 
 contains
 
@@ -51,5 +52,16 @@ contains
     linkage%drawing%is_drawn = .false.
     linkage%drawing%pin = 0.0_wp
   end function new_four_bar
+
+  !> The loop of a four-bar.
+  pure function loop_of(linkage) result(loop)
+    type(linkage_t), intent(in) :: linkage !! a four-bar
+    type(four_bar_t) :: loop
+
+    type(four_bar_t), allocatable :: found
+
+    call find_four_bar(linkage, found)
+    loop = found
+  end function loop_of
 
 end module four_bars

@@ -12,10 +12,13 @@ module report_kinds
 
   public :: report_kind_t, table_kind_t, column_kind_t, report_names, kind_named, columns_of, &
     is_column_of, default_number, kind_of_linkage, key_count
-  public :: any_linkage, four_bars, other_linkages
+  public :: any_linkage, four_bars, other_linkages, format_words
 
-  !> The linkages that a report is about.
+  !> The linkages that a report is about; in `format=`, those as which a linkage is written.
   integer, parameter :: any_linkage = 0, four_bars = 1, other_linkages = 2
+
+  !> The words of `format=`, in the order of four_bars and other_linkages.
+  character(len=*), parameter :: format_words = "four_bar linkage"
 
   !> One table of a report. Columns with the same unit are separated by commas, with the unit after
   !! a colon, and these groups by blanks: `crank:deg x,y:length`. A unit is given as printed in the

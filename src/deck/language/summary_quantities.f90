@@ -14,8 +14,8 @@ module summary_quantities
   type :: quantity_kind_t
     character(len=20) :: name = ""       !! `*` at its end stands for the number of a mode
     character(len=8) :: unit = ""        !! of its values, as in the table of reports
-    character(len=12) :: report = ""     !! of a four-bar, with its values at every position
-    character(len=12) :: general = ""    !! of any other linkage; blank: these have none
+    character(len=12) :: report = ""     !! with its values at every position
+    logical :: of_four_bars = .false.    !! no other linkage has it
     logical :: has_error = .false.       !! its errors are estimated
     character(len=80) :: meaning = ""    !! for the head of the table
   end type quantity_kind_t
@@ -27,27 +27,27 @@ module summary_quantities
   end type quantity_t
 
   type(quantity_kind_t), parameter :: quantity_kinds(*) = [ &
-    quantity_kind_t("f*", "Hz", "frequencies", "frequencies", .true., "natural frequency"), &
-    quantity_kind_t("zeta*", "-", "frequencies", "frequencies", .true., "damping ratio"), &
-    quantity_kind_t("torque", "moment", "reactions", "drive", .false., &
+    quantity_kind_t("f*", "Hz", "frequencies", .false., .true., "natural frequency"), &
+    quantity_kind_t("zeta*", "-", "frequencies", .false., .true., "damping ratio"), &
+    quantity_kind_t("torque", "moment", "drives", .false., .false., &
     "torque or force of the first drive, of rigid links"), &
-    quantity_kind_t("shaking_force", "force", "reactions", "drive", .false., &
+    quantity_kind_t("shaking_force", "force", "drives", .false., .false., &
     "size of the resultant of -m a of all masses"), &
-    quantity_kind_t("shaking_moment", "moment", "reactions", "drive", .false., &
+    quantity_kind_t("shaking_moment", "moment", "drives", .false., .false., &
     "moment of these and of -I alpha of all links"), &
-    quantity_kind_t("frame_force", "force", "frame", "frame", .false., &
+    quantity_kind_t("frame_force", "force", "frame", .false., .false., &
     "size of the resultant of all forces on the frame"), &
-    quantity_kind_t("bearing_force", "force", "bearings", "bearings", .false., &
+    quantity_kind_t("bearing_force", "force", "bearings", .false., .false., &
     "the greatest magnitude of the forces in all joints"), &
-    quantity_kind_t("transmission_angle", "deg", "kinematics", "", .false., &
+    quantity_kind_t("transmission_angle", "deg", "kinematics", .true., .false., &
     "between coupler and follower"), &
-    quantity_kind_t("strain", "-", "strains", "strains", .true., &
+    quantity_kind_t("strain", "-", "strains", .false., .true., &
     "the greatest |axial_strain + bending_strain| of all gauges"), &
-    quantity_kind_t("stress", "stress", "strains", "strains", .true., &
+    quantity_kind_t("stress", "stress", "strains", .false., .true., &
     "the greatest stress of all gauges"), &
-    quantity_kind_t("displacement", "length", "response", "response", .true., &
+    quantity_kind_t("displacement", "length", "response", .false., .true., &
     "the greatest distance of all pins and points from where rigid links hold them"), &
-    quantity_kind_t("elastic_torque", "moment", "torque", "torque", .true., &
+    quantity_kind_t("elastic_torque", "moment", "torque", .false., .true., &
     "total torque of the drive of the elastic linkage")]
 
   !> What a table has of every quantity. Where a value is stands behind the least and the greatest.

@@ -24,7 +24,7 @@ contains
   !! coordinates: x from the ground pivot to the moving pin, for the coupler from A to B. Gravity,
   !! loads and the position of the ground do not matter.
   pure function find_counterweights(linkage, elements) result(weights)
-    type(linkage_t), intent(in) :: linkage !! a four-bar: crank O2–A, coupler A–B, follower B–O4
+    type(linkage_t), intent(in) :: linkage !! a plain four-bar: O2–A, A–B, B–O4
     integer, intent(in) :: elements(:)     !! (bodies) elements whose nodes carry the mass;
                                            !! 0: distributed mass
     type(counterweight_t) :: weights(2)
@@ -44,14 +44,14 @@ contains
         parts(:, 1) = rigid(1)%first_moment
         parts(:, 2) = [rigid(2)%mass*r2, 0.0_wp]
         parts(:, 3) = -rigid(2)%first_moment*(r2/r3)
-        parts(:, 4) = [linkage%pin_mass(2)*r2, 0.0_wp]
+        parts(:, 4) = [linkage%pin_mass(linkage%bodies(2)%first_pin)*r2, 0.0_wp]
       else
         weights(i)%body = 3
         ! The axes of the follower's body start at B and point to O4.
         parts(:, 1) = [rigid(3)%mass*r4, 0.0_wp]
         parts(:, 2) = -rigid(3)%first_moment
         parts(:, 3) = rigid(2)%first_moment*(r4/r3)
-        parts(:, 4) = [linkage%pin_mass(3)*r4, 0.0_wp]
+        parts(:, 4) = [linkage%pin_mass(linkage%bodies(2)%last_pin)*r4, 0.0_wp]
       end if
       associate (body => linkage%bodies(weights(i)%body))
         weights(i)%pin = merge(body%first_pin, body%last_pin, body%heading(1) > 0.0_wp)

@@ -4,6 +4,7 @@ module crank_cycle
   use load_tables, only: refuse_beyond_tables
   use balance_shafts, only: parts_of_shafts
   use errors, only: error_of_numerics, error_t, set_error
+  use four_bar_loops, only: four_bar_t
   use four_bar_limits, only: crank_reach, reach_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
@@ -43,8 +44,9 @@ module crank_cycle
 contains
 
   !> Whether the crank of a four-bar turns fully without reaching a dead point.
-  pure function turns_freely(linkage) result(turns)
-    type(linkage_t), intent(in) :: linkage !! a four-bar
+  pure function turns_freely(linkage, four_bar) result(turns)
+    type(linkage_t), intent(in) :: linkage   !! a four-bar
+    type(four_bar_t), intent(in) :: four_bar !! that it is
     logical :: turns
 
     type(reach_t) :: reach
@@ -52,7 +54,7 @@ contains
     type(error_t), allocatable :: error
     integer :: i
 
-    reach = crank_reach(linkage%ground_position(:, [1, 4]), linkage%bodies%length)
+    reach = crank_reach(four_bar%ground, four_bar%length)
     turns = reach%closes .and. reach%least <= 0.0_wp .and. reach%most >= 180.0_wp
     ! The transmission angle is least and greatest as the crank passes the line of the ground.
     do i = 0, 1

@@ -27,7 +27,7 @@ module linkage_rates
   use linkages, only: drives_angle, linkage_t
   use load_tables, only: refuse_beyond_tables
   use loop_curves, only: curve_point_t, find_point, loop_curve_t
-  use loop_poses, only: loop_bodies, place_on_curve
+  use loop_poses, only: place_on_curve
   use motion_charts, only: accelerations, find_on_chart, motion_chart_t, velocities
   use motion_switches, only: has_switches, switches_at
   use pose_types, only: pose_t
@@ -145,8 +145,8 @@ contains
       if (present(is_crossing)) is_crossing = .not. found
       if (.not. found) return
       if (.not. allocated(per)) allocate (per(1))
-      call place_on_curve(self%whole%linkage, self%whole%origin, point, state(1) + &
-        two_pi*self%turns(1), state(4), pose, per(1), now)
+      call place_on_curve(self%whole%linkage, self%loop%four_bar, self%whole%origin, point, &
+        state(1) + two_pi*self%turns(1), state(4), pose, per(1), now)
       if (size(self%whole%linkage%loads) > 0) call refuse_beyond_tables(self%whole%linkage, pose, &
         self%whole%origin, error)
       found = .not. allocated(error)
@@ -317,7 +317,7 @@ contains
     if (.not. found) return
     associate (instant => self%instant)
       if (allocated(self%loop)) then
-        rates = [instant%motion%turn(loop_bodies(self%whole%linkage)), instant%acceleration, &
+        rates = [instant%motion%turn(self%loop%four_bar%body), instant%acceleration, &
           instant%power]
         return
       end if

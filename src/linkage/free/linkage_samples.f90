@@ -13,7 +13,6 @@ module linkage_samples
     rate_of_drive
   use linkages, only: drives_angle
   use loop_curves, only: closure_error
-  use loop_poses, only: loop_bodies
   use pose_types, only: pose_t
   use poses, only: dead_point_sine
   use rigid_bodies, only: central_inertia, mass_centre
@@ -129,7 +128,7 @@ contains
 
     allocate (sample%loop)
     sample%loop%angle = state(1:3)/degree + 360.0_wp*system%turns
-    sample%loop%speed = now%turn(loop_bodies(system%whole%linkage))
+    sample%loop%speed = now%turn(system%loop%four_bar%body)
     sample%loop%closure = closure_error(system%loop, state(1:3))
   end subroutine sample_loop
 
@@ -181,7 +180,7 @@ contains
     if (.not. found) return
     associate (whole => system%whole, pose => instant%pose, motion => instant%motion)
       if (allocated(system%loop)) then
-        details%acceleration = motion%turn_slope(loop_bodies(whole%linkage))
+        details%acceleration = motion%turn_slope(system%loop%four_bar%body)
       else
         details%acceleration = [(drive_acceleration(whole, pose, system%free(k), motion), k=1, &
           size(system%free))]

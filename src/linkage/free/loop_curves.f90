@@ -8,6 +8,7 @@ module loop_curves
   use constants, only: pi, two_pi
   use curve_crossings, only: crossing_branch_t, crossing_branches, find_on_branch, place_on_branch
   use errors, only: error_of_dead_point, error_t, set_error
+  use four_bar_loops, only: find_four_bar, four_bar_t
   use kinds, only: wp
   use linkages, only: cross, linkage_t, normal_to
   use poses, only: arm_to_middle, dead_point_sine, place_links, pose_t
@@ -20,6 +21,7 @@ module loop_curves
 
   !> Lengths that define the curve.
   type :: loop_curve_t
+    type(four_bar_t) :: four_bar   !! whose curve it is
     real(wp) :: length(3) = 0.0_wp !! of crank, coupler, follower: r2, r3, r4 [m]
     real(wp) :: ground(2) = 0.0_wp !! O2 → O4 [m]
     !> Branches to follow through change points; none: the curve ends there.
@@ -58,11 +60,12 @@ contains
     logical, intent(in), optional :: through !! it goes straight through change points
     type(loop_curve_t) :: curve
 
-    associate (dyad => linkage%groups(1))
-      curve%length = [linkage%bodies(1)%length, linkage%bodies(dyad%body)%length]
-      curve%ground = linkage%ground_position(:, dyad%base(2)) - linkage%ground_position(:, &
-        linkage%bodies(1)%first_pin)
-    end associate
+    type(four_bar_t), allocatable :: four_bar
+
+    call find_four_bar(linkage, four_bar)
+    curve%four_bar = four_bar
+    curve%length = four_bar%length
+    curve%ground = four_bar%ground(:, 2) - four_bar%ground(:, 1)
     allocate (curve%branches(0))
     if (.not. present(through)) return
     if (through) curve%branches = crossing_branches(curve%length, curve%ground)
@@ -129,6 +132,7 @@ contains
     real(wp), intent(out) :: angle(3)                !! θ2, θ3, θ4 [rad]
     type(error_t), allocatable, intent(out) :: error !! why there is no position
 
+    type(four_bar_t), allocatable :: four_bar
     type(pose_t) :: pose
     real(wp) :: e(2, 3)
     integer :: k
@@ -136,16 +140,19 @@ contains
     angle = 0.0_wp
     call place_links(linkage, crank_degrees, pose, error)
     if (allocated(error)) return
-    e(:, 1) = pose%direction(:, 1)
-    do k = 1, 2
-      e(:, k + 1) = arm_to_middle(linkage, linkage%groups(1), pose, k)
-    end do
+    call find_four_bar(linkage, four_bar)
+    associate (dyad => linkage%groups(four_bar%dyad))
+      e(:, 1) = pose%direction(:, 1)
+      do k = 2, 3
+        e(:, k) = arm_to_middle(linkage, dyad, pose, findloc(dyad%body, four_bar%body(k), dim=1))
+      end do
+    end associate
     ! Adding zero turns -0 into 0: an angle of -π would be outside the interval.
     angle = atan2(e(2, :) + 0.0_wp, e(1, :) + 0.0_wp)
     if (max(abs(cross(e(:, 1), e(:, 2))), abs(cross(e(:, 1), e(:, 3))), &
       abs(cross(e(:, 2), e(:, 3)))) < change_point_sine) then
       call set_error(error, error_of_dead_point, change_point_message)
-    else if (abs(pose%sine(1)) < dead_point_sine) then
+    else if (abs(pose%sine(four_bar%dyad)) < dead_point_sine) then
       ! The rounded crank angle of a limit position may be slightly out of reach.
       call project(new_loop_curve(linkage), angle)
     end if

@@ -6,7 +6,8 @@ module report_cards
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: fineness, wp
-  use report_kinds, only: default_number, kind_named, report_kind_t, report_names
+  use report_kinds, only: any_linkage, default_number, format_words, kind_named, report_kind_t, &
+    report_names
   use summary_cards, only: read_summary, summary_card_t
   use text, only: joined, lower_case, same_word, to_string, word_list
   use tokens, only: token_t
@@ -35,6 +36,8 @@ module report_cards
   type :: report_t
     type(token_t) :: keyword
     type(report_kind_t) :: kind  !! without a name if it is unknown
+    integer :: format = any_linkage !! four_bars or other_linkages by `format=`; else as the deck is
+    type(token_t) :: format_word !! the word of `format=`
     type(value_list_t) :: crank  !! `crank=` of shapes and geometry [deg], where a slider or a ram
                                  !! is driven [m]; empty: all positions
     type(value_list_t) :: speed  !! `speed=` of shapes [rad/s] or [m/s]; empty: all speeds. Of
@@ -99,6 +102,7 @@ contains
     report%end_time_word = token_t("", 0, 0)
     report%time_step_word = token_t("", 0, 0)
     report%about_pin = token_t("", 0, 0)
+    report%format_word = token_t("", 0, 0)
     report%through_word = token_t("", 0, 0)
     report%forces_word = token_t("", 0, 0)
     pattern = "REPORT "//joined(word_list(report_names(reports)), "|")
@@ -117,6 +121,10 @@ contains
         trim(report%kind%name)//", and a REPORT card of its own for "//card%words(2)%text
     end if
     call check_words(card, 1, 1, keys_in(pattern), pattern, diagnostics, fine, known_keys)
+    if (has_value(card, "format")) then
+      report%format_word = value_of(card, "format")
+      call read_choice(report%format_word, format_words, diagnostics, report%format)
+    end if
     if (report%kind%response) call read_response(card, system, diagnostics, report)
     select case (report%kind%name)
     case ("shapes")

@@ -25,7 +25,6 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(report_t), intent(inout) :: report           !! REPORT summary, as read
 
-    character(len=12) :: source
     integer :: i
 
     associate (summary => report%summary)
@@ -33,9 +32,7 @@ contains
       summary%reports = ""
       do i = 1, size(summary%quantities)
         associate (kind => quantity_kinds(summary%quantities(i)%kind), word => summary%words(i))
-          source = kind%report
-          if (.not. four_bar) source = kind%general
-          if (source == "") then
+          if (kind%of_four_bars .and. .not. four_bar) then
             if (is_sound) call add_error(diagnostics, word, "'"//trim(kind%name)//"' is made "// &
               "for four-bars only, so far: three links with two pins each, two ground pivots, "// &
               "and a driven link")
@@ -45,8 +42,8 @@ contains
             call add_error(diagnostics, word, "'"//quantity_name(summary%quantities(i))// &
               "' is a damping ratio of modes with dampers, and there is no DAMPER card")
           else
-            summary%reports(i) = source
-            call join(reports(kind_of_linkage(reports, trim(source), four_bar)), report%kind)
+            summary%reports(i) = kind%report
+            call join(reports(kind_of_linkage(reports, trim(kind%report), four_bar)), report%kind)
           end if
         end associate
       end do

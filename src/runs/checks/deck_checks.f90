@@ -9,13 +9,18 @@ module deck_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use drawing_checks, only: check_drawing
   use errors, only: error_of_reach
+  use four_bar_loops, only: is_plain
+  use four_bar_branches, only: refuse_format
   use four_bar_limits, only: crank_reach, reach_t
   use kinds, only: wp
   use linkage_checks, only: check_linkage
   use linkage_parts, only: assemble_linkage, assembly_t
+  use loop_poses, only: has_loop
   use mechanisms, only: mechanism_of, mechanism_t
   use models, only: is_four_bar, model_t, needs_frequencies, needs_response, pivots, &
-    report_number, solver_band, solver_deformation, solver_dense, steady_state_report
+    report_number, solver_band, solver_deformation, solver_dense, steady_state_report, &
+    word_of_four_bar
+  use report_kinds, only: four_bars
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
   use plan_faults, only: report_problem
@@ -63,14 +68,15 @@ contains
     end if
     mechanism = mechanism_of(model, assembly)
     call warn_of_change_points(model, mechanism, diagnostics)
-    if (.not. mechanism%is_four_bar) then
+    call check_format(model, mechanism, diagnostics)
+    if (.not. (is_four_bar(model) .and. mechanism%is_four_bar)) then
       call check_linkage(model, assembly, mechanism, diagnostics)
       if (.not. allocated(assembly%error)) call check_balance_turn(model, mechanism, diagnostics)
       call check_matrices(model, mechanism, diagnostics)
       return
     end if
     pivot = pivots(model)
-    associate (ground => mechanism%linkage%ground_position(:, [1, 4]))
+    associate (ground => mechanism%four_bar%ground)
       if (norm2(ground(:, 2) - ground(:, 1)) <= 0.0_wp) then
         call add_error(diagnostics, model%grounds(pivot(2))%pin, &
           "the two ground pivots are at the same place", model%grounds(pivot(1))%pin, &
@@ -83,7 +89,7 @@ contains
           "the ground pivots are so far from the origin that their distance "// &
           "has lost digits; put the origin nearer to them")
       end if
-      reach = crank_reach(ground, mechanism%linkage%bodies%length)
+      reach = crank_reach(ground, mechanism%four_bar%length)
     end associate
     if (.not. reach%closes) then
       call report_open_linkage(model, mechanism, diagnostics)
@@ -98,6 +104,31 @@ contains
     call check_motion(model, mechanism, reach, diagnostics)
     call check_matrices(model, mechanism, diagnostics)
   end subroutine check_mechanics
+
+  !> Whether the linkage is a four-bar, where reports are written as of one, and one of three links
+  !! where their equations know no more.
+  subroutine check_format(model, mechanism, diagnostics)
+    type(model_t), intent(in) :: model
+    type(mechanism_t), intent(in) :: mechanism
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i
+
+    do i = 1, size(model%reports)
+      associate (report => model%reports(i))
+        if (report%kind%linkages /= four_bars .or. report%kind%name == "mesh") cycle
+        if (.not. allocated(mechanism%four_bar)) then
+          call refuse_format(diagnostics, word_of_four_bar(model))
+          return
+        end if
+        if (report%kind%name == "balance" .and. .not. is_plain(mechanism%linkage) .or. &
+          report%kind%name == "motion" .and. .not. has_loop(mechanism%linkage)) call &
+          add_error(diagnostics, report%keyword, "REPORT "//trim(report%kind%name)//" as of a "// &
+          "four-bar knows three links without masses at further pins; expected REPORT "// &
+          trim(report%kind%name)//" format=linkage")
+      end associate
+    end do
+  end subroutine check_format
 
   !> Whether a mesh of the deck has as many unknowns as modes, and keeps enough digits.
   subroutine check_matrices(model, mechanism, diagnostics)
@@ -154,7 +185,7 @@ contains
       no_state = "the motion, with springs or dampers,"
     end if
     if (report == 0) return
-    if (turns_freely(mechanism%linkage)) return
+    if (turns_freely(mechanism%linkage, mechanism%four_bar)) return
     place = model%reports(report)%keyword
     no_state = "; REPORT "//trim(model%reports(report)%kind%name)//" is on "//no_state//" of "// &
       "a crank that turns fully, and there is none"

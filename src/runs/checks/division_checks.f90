@@ -44,7 +44,7 @@ contains
     if (.not. allocated(mechanism%elastic)) then
       if (report > 0) then
         call add_error(diagnostics, model%reports(report)%keyword, "the forces "//in_links// &
-          " cannot be told apart while all are rigid; REPORT drive, frame and lagrange do not "// &
+          " cannot be told apart while all are rigid; REPORT drives, frame and lagrange do not "// &
           "need them")
       else if (size(model%frictions) > 0) then
         call add_error(diagnostics, model%frictions(1)%keyword, "friction depends on the "// &
@@ -73,7 +73,8 @@ contains
     integer, allocatable :: drives(:)
     integer :: i, redundancy, report
 
-    report = max(report_number(model, "drive"), report_number(model, "sizing"))
+    report = max(report_number(model, "drives"), report_number(model, "drive"), &
+      report_number(model, "sizing"))
     ! Couples of links that turn together follow with those of drives.
     if (report == 0 .and. size(mechanism%linkage%turns) > 0) report = &
       report_number(model, "reactions")

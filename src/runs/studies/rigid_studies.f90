@@ -2,7 +2,7 @@
 module rigid_studies
   use attached_parts, only: body_point_t
   use balance_requests, only: balance_request_of
-  use balance_study, only: balance_request_t, find_balance, find_hung_balance
+  use balance_study, only: balance_request_t, find_balance
   use drive_motions, only: drive_rates
   use equilibrium_study, only: find_equilibria
   use errors, only: error_of_input, error_t, set_error
@@ -10,7 +10,7 @@ module rigid_studies
   use geometry_study, only: find_geometry
   use harmonics_study, only: find_harmonics, has_settled
   use inertia_study, only: find_inertia_loads
-  use joint_study, only: find_joints
+  use joint_study, only: drives_at_speed, find_joints
   use joints_report, only: open_words
   use kinds, only: wp
   use kinematics_study, only: find_kinematics
@@ -21,7 +21,7 @@ module rigid_studies
   use named_parts, only: name_outcomes
   use points_study, only: find_points
   use position_loads, only: elastic_division_t, fail_everywhere, find_division, take_failures
-  use reactions_study, only: find_reactions, reaction_values, reactions_at_speed, torque_value
+  use report_kinds, only: four_bars
   use run_findings, only: findings_t
   use run_totals, only: run_totals_t, widen
   use sizing_requests, only: sizing_request_of
@@ -47,10 +47,8 @@ contains
       add_failures=add_geometry_failures, add_work=add_geometry_work))
     call add_study(list, study_t("inertia", compute=compute_inertia))
     call add_study(list, study_t("points", compute=compute_points))
-    call add_study(list, study_t("reactions", compute=compute_reactions, &
-      add_work=add_reactions_work))
     call add_study(list, study_t("joints", compute=compute_joints, &
-      add_failures_at=add_open_joints))
+      add_failures_at=add_open_joints, add_work=add_torque_range))
     call add_study(list, study_t("friction", compute=compute_friction))
     call add_study(list, study_t("lagrange", compute=compute_lagrange))
     call add_study(list, study_t("balance", compute=compute_balance, &
@@ -65,13 +63,13 @@ contains
     call add_study(list, study_t("equilibrium", compute=compute_equilibrium))
   end subroutine add_rigid_studies
 
-  !> Transmission angles; the tables of other linkages than four-bars take theirs from the poses.
+  !> Angles of four-bars; the tables of other linkages take theirs from the poses.
   subroutine compute_kinematics(run)
     type(variant_run_t), intent(inout), target :: run
 
     associate (mechanism => run%results%mechanism, found => run%results%found)
-      if (mechanism%is_four_bar) call find_kinematics(mechanism%linkage, found%positions, &
-        run%threads, found%kinematics)
+      if (allocated(mechanism%four_bar)) call find_kinematics(mechanism%linkage, &
+        mechanism%four_bar, found%positions, run%threads, found%kinematics)
     end associate
   end subroutine compute_kinematics
 
@@ -116,18 +114,6 @@ contains
         run%threads, found%inertia)
     end associate
   end subroutine compute_inertia
-
-  subroutine compute_reactions(run)
-    type(variant_run_t), intent(inout), target :: run
-
-    real(wp), allocatable :: speeds(:, :), accelerations(:, :)
-
-    call find_rates(run%results, speeds, accelerations)
-    associate (mechanism => run%results%mechanism, found => run%results%found)
-      call find_reactions(mechanism%linkage, mechanism%load_elements, found%positions, &
-        run%threads, found%reactions, speeds, accelerations)
-    end associate
-  end subroutine compute_reactions
 
   subroutine compute_joints(run)
     type(variant_run_t), intent(inout), target :: run
@@ -184,13 +170,8 @@ contains
     associate (model => run%results%model, mechanism => run%results%mechanism, &
         found => run%results%found)
       if (balances(model)) allocate (request, source=balance_request_of(model, mechanism))
-      if (mechanism%is_four_bar) then
-        call find_balance(mechanism%linkage, mechanism%load_elements, found%positions, &
-          run%threads, found%balance, request, speeds, accelerations)
-      else
-        call find_hung_balance(mechanism%linkage, mechanism%load_elements, found%positions, &
-          run%threads, found%balance, request, speeds, accelerations)
-      end if
+      call find_balance(mechanism%linkage, mechanism%load_elements, found%positions, run%threads, &
+        found%balance, request, speeds, accelerations)
     end associate
   end subroutine compute_balance
 
@@ -212,7 +193,9 @@ contains
   subroutine compute_linkage(run)
     type(variant_run_t), intent(inout), target :: run
 
-    call find_linkage(run%results%mechanism%linkage, run%results%found%linkage)
+    associate (mechanism => run%results%mechanism)
+      call find_linkage(mechanism%linkage, mechanism%four_bar, run%results%found%linkage)
+    end associate
   end subroutine compute_linkage
 
   subroutine compute_limits(run)
@@ -397,26 +380,29 @@ contains
     end associate
   end subroutine add_sizing_failures
 
-  !> The driving torque at all positions and speeds.
-  pure subroutine add_reactions_work(variant, totals)
+  !> The driving torque of a four-bar at all positions and speeds, where tables have it.
+  pure subroutine add_torque_range(variant, totals)
     type(variant_results_t), intent(in) :: variant
     type(run_totals_t), intent(inout) :: totals
 
-    real(wp) :: values(reaction_values), rates(2)
+    real(wp) :: drives(3, size(variant%mechanism%linkage%drives)), rates(2)
     integer :: i, k, state
 
-    associate (found => variant%found)
-      if (.not. allocated(found%reactions%unit)) return
+    associate (found => variant%found, kinds => variant%model%reports%kind)
+      if (.not. (variant%mechanism%is_four_bar .and. allocated(found%joints%drive))) return
+      if (.not. any(kinds%linkages == four_bars .and. index(kinds%studies, "joints") > 0 .or. &
+        index(kinds%name, "summary") > 0 .and. index(kinds%studies, "joints") > 0)) return
       do i = 1, size(found%positions%crank)
         state = found%positions%state(i)
         if (allocated(found%positions%states(state)%error)) cycle
         do k = 1, size(variant%model%speed%value)
           rates = drive_rates(variant%model, k, i)
-          values = reactions_at_speed(found%reactions, state, rates(1), rates(2), k)
-          call widen(totals%torque, values(torque_value))
+          drives = drives_at_speed(variant%mechanism%linkage, found%joints, state, &
+            found%positions%crank(i), rates(1), rates(2), k)
+          call widen(totals%torque, drives(3, 1))
         end do
       end do
     end associate
-  end subroutine add_reactions_work
+  end subroutine add_torque_range
 
 end module rigid_studies

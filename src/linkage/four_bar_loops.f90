@@ -1,0 +1,120 @@
+!> Four-bars: linkages whose plan is a crank and one dyad on a second ground pivot.
+!!
+!! What hangs on their links does not make them others: further pins, links welded on.
+module four_bar_loops
+  use kinds, only: wp
+  use linkages, only: drives_angle, groups_carried, groups_dyad, groups_turned, linkage_t
+  implicit none (type, external)
+  private
+
+  public :: four_bar_t, find_four_bar, is_plain
+
+  !> The loop of a four-bar, in the order crank, coupler, follower.
+  type :: four_bar_t
+    integer :: body(3) = 0           !! bodies
+    integer :: pin(4) = 0            !! O2, A, B, O4
+    integer :: dyad = 0              !! number of the group of coupler and follower
+    real(wp) :: length(3) = 0.0_wp   !! of the bodies, between these pins [m]
+    real(wp) :: ground(2, 2) = 0.0_wp !! O2 and O4 in global axes [m]
+  end type four_bar_t
+
+contains
+
+  !> The four-bar that a linkage is; not allocated if it is another one.
+  pure subroutine find_four_bar(linkage, four_bar)
+    type(linkage_t), intent(in) :: linkage !! with its groups
+    type(four_bar_t), allocatable, intent(out) :: four_bar
+
+    type(four_bar_t) :: found
+    integer :: i, first
+
+    if (.not. linkage%has_crank .or. size(linkage%drives) /= 1 .or. size(linkage%sliders) > 0) &
+      return
+    if (linkage%drives(1)%kind /= drives_angle .or. linkage%drives(1)%against /= 0) return
+    if (allocated(linkage%redundancies)) then
+      if (size(linkage%redundancies) > 0) return
+    end if
+    if (count(linkage%groups%kind == groups_dyad) /= 1) return
+    do i = 1, size(linkage%groups)
+      if (all(linkage%groups(i)%kind /= [groups_dyad, groups_carried, groups_turned])) return
+    end do
+    found%dyad = findloc(linkage%groups%kind, groups_dyad, dim=1)
+    associate (dyad => linkage%groups(found%dyad))
+      first = merge(2, 1, linkage%is_ground(dyad%base(1)))
+      found%body = [1, dyad%body(first), dyad%body(3 - first)]
+      found%pin = [linkage%bodies(1)%first_pin, dyad%base(first), dyad%middle, dyad%base(3 - first)]
+    end associate
+    if (.not. linkage%is_ground(found%pin(4)) .or. found%pin(4) == found%pin(1)) return
+    found%ground = linkage%ground_position(:, found%pin([1, 4]))
+    do i = 1, 3
+      found%length(i) = distance_between(linkage, found%body(i), found%pin(i), found%pin(i + 1))
+      if (.not. found%length(i) > 0.0_wp) return
+    end do
+    four_bar = found
+  end subroutine find_four_bar
+
+  !> Whether a linkage is a four-bar of three links, without masses at other pins than those of its
+  !! loop.
+  pure function is_plain(linkage) result(is)
+    type(linkage_t), intent(in) :: linkage !! with its groups
+    logical :: is
+
+    type(four_bar_t), allocatable :: four_bar
+    integer :: i
+
+    call find_four_bar(linkage, four_bar)
+    is = allocated(four_bar)
+    if (is) is = size(linkage%bodies) == 3 .and. all(linkage%bodies(four_bar%body)%first_pin == &
+      four_bar%pin(:3)) .and. all(linkage%bodies(four_bar%body)%last_pin == four_bar%pin(2:))
+    if (.not. is) return
+    do i = 1, size(linkage%pin_mass)
+      is = is .and. (any(four_bar%pin == i) .or. .not. linkage%pin_mass(i) > 0.0_wp)
+    end do
+  end function is_plain
+
+  !> Distance of two pins of a body; 0 if it does not have both [m].
+  pure function distance_between(linkage, body, first, second) result(distance)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: body, first, second
+    real(wp) :: distance
+
+    real(wp) :: place(2, 2)
+    logical :: has(2)
+
+    distance = 0.0_wp
+    associate (this => linkage%bodies(body))
+      if (all([first, second] == [this%first_pin, this%last_pin]) .or. &
+        all([second, first] == [this%first_pin, this%last_pin])) then
+        distance = this%length
+        return
+      end if
+    end associate
+    call find_place(first, place(:, 1), has(1))
+    call find_place(second, place(:, 2), has(2))
+    if (all(has)) distance = norm2(place(:, 2) - place(:, 1))
+
+  contains
+
+    !> Where a pin is in the axes of the body.
+    pure subroutine find_place(pin, place, has)
+      integer, intent(in) :: pin
+      real(wp), intent(out) :: place(2)
+      logical, intent(out) :: has
+
+      integer :: i
+
+      place = 0.0_wp
+      associate (this => linkage%bodies(body))
+        has = any(pin == [this%first_pin, this%last_pin])
+        if (pin == this%last_pin) place(1) = this%length
+        do i = 1, size(this%further)
+          if (this%further(i)%pin /= pin) cycle
+          has = .true.
+          place = this%further(i)%place
+        end do
+      end associate
+    end subroutine find_place
+
+  end function distance_between
+
+end module four_bar_loops
