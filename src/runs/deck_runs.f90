@@ -11,11 +11,11 @@ module deck_runs
   use diagnostics, only: diagnostics_t, warnings_of, diagnostic_t
   use echo, only: echo_text
   use errors, only: error_of_interruption, error_of_numerics, error_t, set_error
+  use evaluations, only: evaluation_limits_t, evaluation_store_t, refuse_values
   use file_system, only: file_name, joined_path
   use findings_texts, only: failure_text, findings_log, findings_messages
   use interruption, only: was_interrupted, was_out_of_time
   use kinds, only: wp
-  use link_store, only: link_store_t
   use models, only: model_t, report_number, solver_band
   use part_files, only: find_parts, read_parts, refuse_part
   use program_version, only: version_number
@@ -36,7 +36,7 @@ module deck_runs
   use variant_findings, only: find_failures, find_warnings, totals_of
   use variant_log, only: log_of_variant
   use variant_checks, only: is_refused
-  use variant_readings, only: read_variant, refusal_of_variant
+  use variant_readings, only: read_variant
   use variant_rows, only: fail_variant, variant_rows_t
   use variant_runs, only: begin_variant_run, compute_variant, help_with_variant, variant_run_t
   use variant_tasks, only: group_of_variants, run_variant_tasks, variant_job_t
@@ -324,9 +324,8 @@ contains
 
     type(variant_run_t) :: run
     type(model_t) :: model
-    type(card_t), allocatable :: cards(:)
     type(diagnostics_t) :: none
-    type(link_store_t) :: store
+    type(evaluation_store_t) :: store
     type(findings_t) :: findings
     type(run_totals_t) :: totals
     type(stopwatch_t) :: watch
@@ -335,15 +334,15 @@ contains
 
     call start_stopwatch(watch)
     if (is_refused(deck%verdict, number)) then
-      call refusal_of_variant(deck%cards, number, deck%verdict%threads, deck%verdict%available, &
-        cards, error)
+      call refuse_values(deck%cards, variant_values(deck%cards, number), &
+        evaluation_limits_t(deck%verdict%threads, deck%verdict%available), store, error)
       call write_failed_variant(deck, number, session, error)
       return
     end if
     if (number == deck%verdict%leading) then
       call begin_variant_run(run, deck%model)
     else
-      call read_variant(deck%cards, number, cards, none, model)
+      call read_variant(deck%cards, number, store%cards, none, model)
       call begin_variant_run(run, model)
     end if
     if (variant_count(deck%cards) == 1) run%progress = session%progress
@@ -353,7 +352,7 @@ contains
       call put_integers(announced, [number])
       run%announcement = announced%storage(:announced%length)
     end if
-    call compute_variant(run, threads, session%journal, number, store, error)
+    call compute_variant(run, threads, session%journal, number, store%links, error)
     if (variant_count(deck%cards) == 1) session%progress = run%progress
     call lap(watch, computing)
     if (was_interrupted()) return

@@ -1,19 +1,19 @@
-!> Reading and checking of one variant of a deck.
+!> Reading and checking of a deck with one set of values.
 module variant_readings
   use available_memory, only: available_memory_t
   use cards, only: card_t
   use deck_checks, only: check_mechanics
-  use diagnostics, only: diagnostic_t, diagnostics_t, errors_of, has_errors
-  use errors, only: error_of_input, error_t, set_error
+  use diagnostics, only: diagnostics_t, has_errors
+  use kinds, only: wp
   use memory_needs, only: check_memory
   use model_reader, only: read_model
   use models, only: model_t
   use report_table, only: reports
-  use variants, only: deck_cards_t, take_variant, variant_text, variant_values
+  use variants, only: deck_cards_t, take_values, take_variant, text_of_values, variant_values
   implicit none (type, external)
   private
 
-  public :: read_variant, check_variant, refusal_of_variant
+  public :: read_variant, read_values, check_variant
 
 contains
 
@@ -29,11 +29,34 @@ contains
                                                          !! return
 
     call take_variant(deck_cards, number, cards)
+    call finish_model(deck_cards, variant_values(deck_cards, number), cards, diagnostics, model)
+  end subroutine read_variant
+
+  !> The same of any values of the VARY cards.
+  subroutine read_values(deck_cards, values, cards, diagnostics, model)
+    type(deck_cards_t), intent(in) :: deck_cards         !! of all variants, without errors
+    real(wp), intent(in) :: values(:)                    !! (parameters) in the units of their cards
+    type(card_t), allocatable, intent(inout) :: cards(:) !! as for `read_variant`
+    type(diagnostics_t), intent(inout) :: diagnostics    !! likewise
+    type(model_t), intent(out) :: model                  !! likewise
+
+    call take_values(deck_cards, values, cards)
+    call finish_model(deck_cards, values, cards, diagnostics, model)
+  end subroutine read_values
+
+  !> Makes a model of cards with values in place.
+  subroutine finish_model(deck_cards, values, cards, diagnostics, model)
+    type(deck_cards_t), intent(in) :: deck_cards
+    real(wp), intent(in) :: values(:)
+    type(card_t), intent(in) :: cards(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(out) :: model
+
     call read_model(cards, reports(), diagnostics, model)
     if (has_errors(diagnostics)) return
-    model%variant = variant_text(deck_cards, number)
-    model%varied = variant_values(deck_cards, number)
-  end subroutine read_variant
+    model%variant = text_of_values(deck_cards, values)
+    model%varied = values
+  end subroutine finish_model
 
   !> Whether memory suffices for a model, and then whether it makes sense mechanically.
   subroutine check_variant(model, threads, available, diagnostics)
@@ -46,29 +69,5 @@ contains
     if (.not. has_errors(diagnostics)) call check_memory(model, threads, available, diagnostics)
     if (.not. has_errors(diagnostics)) call check_mechanics(model, diagnostics)
   end subroutine check_variant
-
-  !> Why a variant was refused: the first of its errors in the order of the deck's lines.
-  subroutine refusal_of_variant(deck_cards, number, threads, available, cards, error)
-    type(deck_cards_t), intent(in) :: deck_cards         !! of all variants
-    integer, intent(in) :: number                        !! of the variant, which was refused
-    integer, intent(in) :: threads                       !! that compute the deck
-    type(available_memory_t), intent(in) :: available    !! when the deck was read
-    type(card_t), allocatable, intent(inout) :: cards(:) !! as for `read_variant`
-    type(error_t), allocatable, intent(out) :: error     !! the reason, without a place
-
-    type(diagnostics_t) :: mine
-    type(model_t) :: model
-    type(diagnostic_t), allocatable :: list(:)
-
-    call read_variant(deck_cards, number, cards, mine, model)
-    call check_variant(model, threads, available, mine)
-    list = errors_of(mine)
-    if (size(list) > 0) then
-      call set_error(error, list(1)%kind, list(1)%message)
-    else
-      ! Another process may have found less memory than this one.
-      call set_error(error, error_of_input, "it was refused when all variants were checked")
-    end if
-  end subroutine refusal_of_variant
 
 end module variant_readings

@@ -2,17 +2,14 @@
 !! and its totals.
 module variant_tasks
   use byte_streams, only: get_integers, put_integers, put_string
-  use cards, only: card_t
   use deck_bytes, only: get_deck, put_deck
   use deck_outputs, only: forget_waiting, outputs_t, write_found_rows
   use deck_readings, only: deck_t
-  use diagnostics, only: diagnostics_t
   use errors, only: error_of_numerics, error_t, set_error
+  use evaluations, only: compute_values, evaluation_limits_t, evaluation_store_t, refuse_values
   use interruption, only: was_interrupted
   use jobs, only: job_t
   use kinds, only: wp
-  use link_store, only: link_store_t
-  use models, only: model_t
   use omp_lib, only: omp_get_thread_num
   use progress, only: progress_t, show_progress
   use rank_tasks, only: help_with_tasks
@@ -28,22 +25,15 @@ module variant_tasks
   use text, only: string_t
   use text_buffer, only: text_buffer_t
   use variant_checks, only: is_refused
-  use variant_readings, only: read_variant, refusal_of_variant
   use variant_rows, only: fail_variant, find_variant_rows, get_variant_rows, put_variant_rows, &
     variant_rows_t
-  use variant_runs, only: begin_variant_run, compute_variant, variant_run_t
+  use variant_runs, only: variant_run_t
   use variants, only: variant_count, variant_text, variant_values
   implicit none (type, external)
   private
 
   public :: variant_job_t, begin_variant_job, run_variant_tasks, help_with_variants, &
     variants_announced, group_of_variants
-
-  !> What a thread keeps from one variant to the next.
-  type :: thread_store_t
-    type(card_t), allocatable :: cards(:) !! of the last variant
-    type(link_store_t) :: links           !! whose own modes are known
-  end type thread_store_t
 
   !> The variants under way. Their results lie in a ring: a variant takes the place of one that was
   !! written before.
@@ -61,7 +51,7 @@ module variant_tasks
     integer, private :: threads = 1                         !! that compute a variant together
     type(any_table_t), allocatable, private :: kinds(:)    !! (tables) of the deck
     type(variant_rows_t), allocatable, private :: rows(:)   !! (0: ring − 1) not yet written
-    type(thread_store_t), allocatable, private :: stores(:) !! (threads)
+    type(evaluation_store_t), allocatable, private :: stores(:) !! (threads)
     integer, private :: headless = 0                        !! number of the variant that leads
                                                             !! since others failed; 0: none
     type(variant_rows_t), private :: head                   !! what it brings for heads of tables
@@ -177,45 +167,38 @@ contains
     class(variant_job_t), intent(in) :: job
     integer, intent(in) :: number                  !! of the variant
     logical, intent(in) :: leads                   !! whether heads of tables and log are to be its
-    type(thread_store_t), intent(inout) :: store
+    type(evaluation_store_t), intent(inout) :: store
     type(variant_rows_t), intent(inout) :: rows
 
     type(variant_run_t) :: run
-    type(model_t) :: model
-    type(diagnostics_t) :: none
-    type(journal_t) :: no_journal
+    type(evaluation_limits_t) :: limits
     type(stopwatch_t) :: watch
     type(error_t), allocatable :: error
-    real(wp) :: reading, computing, writing
+    real(wp), allocatable :: values(:)
+    real(wp) :: computing, writing
 
-    ! One thread at a time makes texts: gfortran 12 keeps the lengths of such results in one place
-    ! for all threads.
-    !$omp critical (one_at_a_time)
     call start_stopwatch(watch)
-    associate (cards => job%deck%cards, verdict => job%deck%verdict)
-      if (is_refused(verdict, number)) then
-        call refusal_of_variant(cards, number, verdict%threads, verdict%available, store%cards, &
-          error)
-        call fail_variant(size(job%kinds), variant_text(cards, number), &
-          variant_values(cards, number), error, rows)
-      else
-        call read_variant(cards, number, store%cards, none, model)
-        call begin_variant_run(run, model)
-      end if
-    end associate
-    call lap(watch, reading)
-    !$omp end critical (one_at_a_time)
-    if (allocated(error)) return
-    call compute_variant(run, job%threads, no_journal, -1, store%links, error)
+    values = variant_values(job%deck%cards, number)
+    limits = evaluation_limits_t(job%threads, job%deck%verdict%available)
+    if (is_refused(job%deck%verdict, number)) then
+      limits%threads = job%deck%verdict%threads
+      !$omp critical (one_at_a_time)
+      call refuse_values(job%deck%cards, values, limits, store, error)
+      !$omp end critical (one_at_a_time)
+    else
+      call compute_values(job%deck%cards, values, limits, .true., store, run, error)
+    end if
     call lap(watch, computing)
     if (was_interrupted()) return
     if (allocated(error)) then
-      call fail_variant(size(job%kinds), model%variant, model%varied, error, rows)
+      !$omp critical (one_at_a_time)
+      call fail_variant(size(job%kinds), variant_text(job%deck%cards, number), values, error, rows)
+      !$omp end critical (one_at_a_time)
       return
     end if
     call find_variant_rows(job%kinds, run%results, job%threads, leads, rows)
     call lap(watch, writing)
-    rows%totals%computing = reading + computing
+    rows%totals%computing = computing
     rows%totals%writing = writing
   end subroutine compute
 

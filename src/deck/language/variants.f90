@@ -5,17 +5,18 @@ module variants
   use deck_source, only: source_t
   use diagnostics, only: add_error, diagnostics_t, has_errors
   use kinds, only: long, wp
+  use numbers, only: shortest_text
   use report_kinds, only: report_kind_t
   use settings, only: read_settings, settings_t, warn_of_unused_settings
   use substitution, only: put_value, slot_t, substitute
   use text, only: same_word, string_t, to_string
   use tokens, only: token_t, token_texts
-  use variations, only: get_value_word, read_variation, variation_t
+  use variations, only: get_value_word, read_variation, value_word, variation_t
   implicit none (type, external)
   private
 
-  public :: deck_cards_t, read_deck_cards, variant_count, take_variant, variant_values, &
-    variant_text, parameter_names
+  public :: deck_cards_t, read_deck_cards, variant_count, take_variant, take_values, &
+    variant_values, variant_text, text_of_values, parameter_names
 
   !> All cards of a deck, and the values of its `$name`s.
   type :: deck_cards_t
@@ -143,23 +144,52 @@ contains
     type(card_t), allocatable, intent(inout) :: cards(:) !! (cards) not allocated, or of another
                                                          !! variant
 
-    type(token_t) :: word
+    type(token_t) :: words(size(deck%variations))
     integer :: choice(size(deck%variations)), k
 
-    if (.not. allocated(cards)) cards = deck%fixed
     choice = choices(deck, number)
+    do k = 1, size(words)
+      if (size(deck%variations(k)%value) > 0) call get_value_word(deck%variations(k), choice(k), &
+        words(k))
+    end do
+    call put_words(deck, words, cards)
+  end subroutine take_variant
+
+  !> Puts any values of the VARY cards in place.
+  pure subroutine take_values(deck, values, cards)
+    type(deck_cards_t), intent(in) :: deck               !! without errors
+    real(wp), intent(in) :: values(:)                    !! (parameters) in the units of their cards
+    type(card_t), allocatable, intent(inout) :: cards(:) !! (cards) as for `take_variant`
+
+    type(token_t) :: words(size(values))
+    integer :: k
+
+    do k = 1, size(values)
+      words(k) = value_word(deck%variations(k), values(k))
+    end do
+    call put_words(deck, words, cards)
+  end subroutine take_values
+
+  !> Puts a word of every VARY card in place.
+  pure subroutine put_words(deck, words, cards)
+    type(deck_cards_t), intent(in) :: deck
+    type(token_t), intent(in) :: words(:)                !! (variations)
+    type(card_t), allocatable, intent(inout) :: cards(:) !! (cards) as for `take_variant`
+
+    integer :: k
+
+    if (.not. allocated(cards)) cards = deck%fixed
     do k = 1, size(deck%slots)
-      if (deck%source_of(k) == 0) cycle
-      associate (variation => deck%variations(deck%source_of(k)))
-        if (size(variation%value) > 0) then
-          call get_value_word(variation, choice(deck%source_of(k)), word)
-          call put_value(cards, deck%slots(k), word)
+      associate (from => deck%source_of(k))
+        if (from == 0) cycle
+        if (size(deck%variations(from)%value) > 0) then
+          call put_value(cards, deck%slots(k), words(from))
         else
           call mark_unknown(cards, deck%slots(k))
         end if
       end associate
     end do
-  end subroutine take_variant
+  end subroutine put_words
 
   !> Marks a value as unknown, so that no further error is reported for it.
   pure subroutine mark_unknown(cards, slot)
@@ -221,16 +251,24 @@ contains
     integer, intent(in) :: number          !! of the variant, from 1
     character(len=:), allocatable :: text
 
-    type(token_t) :: word
-    integer :: choice(size(deck%variations)), k
-
-    choice = choices(deck, number)
-    text = ""
-    do k = 1, size(choice)
-      if (k > 1) text = text//" "
-      call get_value_word(deck%variations(k), choice(k), word)
-      text = text//deck%variations(k)%name%text//"="//word%text
-    end do
+    text = text_of_values(deck, variant_values(deck, number))
   end function variant_text
+
+  !> The same of any values.
+  pure function text_of_values(deck, values) result(text)
+    type(deck_cards_t), intent(in) :: deck !! without errors
+    real(wp), intent(in) :: values(:)      !! (parameters) in the units of their cards
+    character(len=:), allocatable :: text
+
+    integer :: k
+
+    text = ""
+    do k = 1, size(values)
+      if (k > 1) text = text//" "
+      associate (variation => deck%variations(k))
+        text = text//variation%name%text//"="//shortest_text(values(k))//variation%unit
+      end associate
+    end do
+  end function text_of_values
 
 end module variants

@@ -13,7 +13,7 @@ module variations
   implicit none (type, external)
   private
 
-  public :: variation_t, read_variation, get_value_word
+  public :: variation_t, read_variation, get_value_word, value_word
 
   !> One VARY card.
   type :: variation_t
@@ -77,6 +77,16 @@ contains
     word = variation%words(variation%word(number))
     word%text = shortest_text(variation%value(number))//variation%unit
   end subroutine get_value_word
+
+  !> The word of any value, at the place of the first word of the card.
+  pure function value_word(variation, value) result(word)
+    type(variation_t), intent(in) :: variation !! with values
+    real(wp), intent(in) :: value              !! in its unit
+    type(token_t) :: word
+
+    word = variation%words(1)
+    word%text = shortest_text(value)//variation%unit
+  end function value_word
 
   !> Whether a name is that of a column. Column names of some reports are refused only in decks that
   !! request them: `M`, `load` or `time` may vary elsewhere.
