@@ -101,8 +101,9 @@ contains
       if (is_directory(path(:at))) cycle
       made = c_mkdir(path(:at)//c_null_char, everybody) == 0
       if (.not. made) then
-        ! Another process may have been faster.
-        if (is_directory(path(:at))) cycle
+        ! Another process may have been faster, or have removed in between what it had made.
+        made = is_directory(path(:at))
+        if (made) cycle
         made = c_mkdir(path(:at)//c_null_char, everybody) == 0
         if (.not. made) exit
       end if

@@ -68,6 +68,12 @@ contains
       flywheel%alone = flywheel%fluctuation
       if (flywheel%alone <= fluctuation) return
     end if
+    if (.not. (flywheel%energy > 0.0_wp .or. maxval(turn%inertia) > minval(turn%inertia))) then
+      ! Nothing changes the speed, and where nothing has a mass, no energy tells it.
+      flywheel%greatest = abs(speed)
+      flywheel%least = abs(speed)
+      return
+    end if
     ! What loads and what the change of M alone would ask for.
     high = flywheel%energy/(fluctuation*speed**2) + (maxval(turn%inertia) - &
       minval(turn%inertia))/fluctuation + tiny(1.0_wp)

@@ -69,9 +69,9 @@ contains
   !! Errors: as for `evaluate`, but for the quantities.
   subroutine compute_values(deck_cards, values, limits, is_checked, store, run, error)
     type(deck_cards_t), intent(in) :: deck_cards     !! without errors
-    real(wp), intent(in) :: values(:)                !! (parameters) in the units of their VARY cards
+    real(wp), intent(in) :: values(:)                !! (parameters) in the units of their cards
     type(evaluation_limits_t), intent(in) :: limits
-    logical, intent(in) :: is_checked                !! it is known that the values are sound
+    logical, intent(in) :: is_checked                !! the values are known to be sound
     type(evaluation_store_t), intent(inout) :: store !! new, or of another evaluation of this deck
     type(variant_run_t), intent(inout) :: run        !! new; gets the results
     type(error_t), allocatable, intent(out) :: error !! without a place
