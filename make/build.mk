@@ -55,7 +55,7 @@ $(shell rm -f $(stale))
 endif
 
 # What reads, checks and keeps, but computes nothing: half of the compilation at -O3, most of it copies of results.
-told := $(patsubst %.f90,$(build)/%.o,$(notdir $(filter src/model/cards/% src/model/checks/% %/model_reader.f90 src/reports/% src/runs/% src/command/% \
+told := $(patsubst %.f90,$(build)/%.o,$(notdir $(filter src/model/cards/% src/model/requests/% src/model/checks/% %/model_reader.f90 src/reports/% src/runs/% src/command/% \
                                                         %/study_results.f90,$(sources))))
 $(told): private FFLAGS := $(subst -O3,-O1,$(flags_$(kind)))
 
@@ -78,7 +78,7 @@ $(of_mpi): $(filter-out %/ranks_alone.o,$(modules)) $(build)/main.o build/mpi/ra
 	@echo "link $@"
 	mpifort -fopenmp $(FFLAGS) $^ $(libraries) -o $@
 
-build/mpi/ranks_mpi.o: src/base/ranks_mpi.f90 $(build)/ranks.o $(build)/command
+build/mpi/ranks_mpi.o: src/base/system/ranks_mpi.f90 $(build)/ranks.o $(build)/command
 	@echo "mpifort ($(kind)) $<"
 	mkdir -p $(@D)
 	mpifort -std=f2018 -fimplicit-none -fopenmp $(FFLAGS) $(options) -c $< -o $@

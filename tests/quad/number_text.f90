@@ -1,4 +1,4 @@
-!> Numbers as text with all the digits of quadruple precision: in place of src/base/number_text.f90.
+!> Numbers as text with all the digits of quadruple precision: in place of src/base/words/number_text.f90.
 module number_text
   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
   use kinds, only: wp

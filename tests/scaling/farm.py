@@ -4,7 +4,7 @@
     farm.py RECORD [--ranks 1,2,4,...] [--slower S] [--latency SECONDS] [--bandwidth BYTES_PER_SECOND]
 
 RECORD is a file by record_tasks: of every task the time of the rank that computes it, its bytes, and the time of the leader that
-writes it. The rules are those of src/runs/rank_tasks.f90 and src/runs/task_pool.f90: portions of some milliseconds, smaller towards
+writes it. The rules are those of src/runs/batch/rank_tasks.f90 and src/runs/batch/task_pool.f90: portions of some milliseconds, smaller towards
 the end, the next one handed out before the last one is done, results finished in order in a window. The leader computes, too, while
 it has nothing to serve. Prints for every number of ranks: time, speed compared with one rank, share of the leader's time spent
 serving, tasks a second.
