@@ -192,87 +192,66 @@ ask() { awk -v want="$1" -f "$PLOTS/quoted.awk" -f "$PLOTS/tables.awk" < "$2"; }
 # A text as gnuplot reads it, for awk.
 quoting=$(cat "$PLOTS/quoted.awk")
 
-# have TABLE [COLUMN]: it is there and has rows.
+remark_once() {
+    grep -qxF -e "$1" "$new/remarks" 2> /dev/null || remark "$1"
+    printf '%s\n' "$1" >> "$new/remarks"
+}
+
+# have TABLE: it is there and has rows.
 have() {
     [ -f "$1" ] || return 1
-    [ -n "$(ask "distinct ${2-crank}" "$1")" ] && return 0
-    remark "$outdir/$1 has no row that could be computed"
+    grep -qv -e '^#' -e '^ *$' "$1" && return 0
+    remark_once "$outdir/$1 has no row that could be computed"
     return 1
 }
 
-# drawn_from SCRIPT [WHAT]: the columns of its table that a script draws, where it does not draw all, or `columns=` of a REPORT card may
-# leave them out; with a + those without which it draws the others. f stands for f1, f2, …
-drawn_from() {
-    case $1 in
-        kinematics.gp)
-            case $2 in
-                angles) echo theta3 theta4 transmission_angle ;;
-                velocities) echo omega3 omega4 ;;
-                *) echo alpha3 alpha4 ;;
-            esac ;;
-        link_motion.gp) echo theta omega alpha ;;
-        pin_motion.gp) echo x y vx vy ax ay ;;
-        point_rates.gp) echo vx vy ax ay ;;
-        coupler_curve.gp) echo x y ;;
-        reactions.gp) echo O2x O2y A2x A2y A3x A3y B3x B3y B4x B4y O4x O4y torque ;;
-        forces.gp | animate_forces.gp) echo O2x O2y A3x A3y B3x B3y O4x O4y shaking_x shaking_y ;;
-        shaking_force.gp) echo shaking_x shaking_y ;;
-        joint_forces.gp) echo fx fy ;;
-        bearings.gp) echo fx fy axial transverse magnitude ;;
-        lagrange.gp) echo +M +V +gravity +load torque kinetic potential ;;
-        displacements.gp | pin_displacements.gp | deviation.gp) echo ux uy ;;
-        deformed_linkage.gp | animate_response.gp) echo ux uy rotation ;;
-        strains.gp | gauge_by_speed.gp) echo axial_strain bending_strain stress ;;
-        drive.gp) echo rigid linear quadratic total power ;;
-        largest_strain.gp) echo strain ;;
-        frequencies.gp | varied.gp) echo +f ;;
-        frequency_by_speed.gp) echo "f$2" ;;
-        errors.gp) echo +error ;;
-        linkage_positions.gp | animate_cycle.gp | animate_linkage.gp) echo crank ;;
-    esac
-}
+# Columns of its table that the next figure draws, where it does not draw all, or `columns=` of a REPORT card may leave them out; with a + those
+# without which it draws the others. f stands for f1, f2, …
+needed=
 
-# complete FIGURE SCRIPT TABLE [WHAT]: the table has what the script draws; what it lacks is told once.
+# complete FIGURE TABLE: the table has these columns; what it lacks is told once.
 complete() {
-    needed=$(drawn_from "$2" "${4-}")
-    [ -n "$needed" ] && [ -n "$3" ] || return 0
-    its_columns=" $(ask facts "$3" | tr ';' '\n' | sed -n 's/^ col_\([^ ]*\) = .*/\1/p' | tr '\n' ' ')"
+    [ -n "$needed" ] && [ -n "$2" ] || return 0
+    its_columns=" $(ask facts "$2" | tr ';' '\n' | sed -n 's/^ col_\([^ ]*\) = .*/\1/p' | tr '\n' ' ')"
     lacking=
     for column in $needed; do
         case $column$its_columns in +* | *" $column "*) ;; *) lacking="$lacking $column" ;; esac
     done
     [ -n "$lacking" ] || return 0
-    lacking="$1 is not drawn: $outdir/${3##*/} has no column$lacking (columns= of its REPORT card)"
-    grep -qxF -e "$lacking" "$new/lacking" 2> /dev/null || remark "$lacking"
-    printf '%s\n' "$lacking" >> "$new/lacking"
+    remark_once "$1 is not drawn: $outdir/${2##*/} has no column$lacking (columns= of its REPORT card)"
     return 1
 }
 
-# sound FIGURE SCRIPT TABLE [ARGUMENT…]: there are numbers and names in the tables where the figure needs them; what else there is, is
+# sound FIGURE TABLE [ARGUMENT…]: there are numbers and names in the tables where the figure needs them; what else there is, is
 # told at the end.
 sound() {
     figure=$1
-    needed=" - $(drawn_from "$2" "${4-}" | tr -d +) "
-    shift 2
+    wanted=" - $(echo "$needed" | tr -d +) "
+    shift
     for table in "$@"; do
         table=${table##*/}
         case $table in *.dat) [ -f "$table" ] || continue ;; *) continue ;; esac
         [ -f "$new/wrong/$table" ] || ask wrong "$table" > "$new/wrong/$table"
         while read -r column fault; do
-            case $needed in
+            case $wanted in
                 ' -  ' | *" $column "* | *" ${column%%[0-9]*} "*)
                     printf '%s %s, %s\n' "$figure" "$table" "$fault" >> "$new/refused"
                     return 1 ;;
             esac
         done < "$new/wrong/$table"
-        needed=' -  '               # of the first table some columns, of others all
+        wanted=' -  '               # of the first table some columns, of others all
     done
 }
 
-# add FIGURE SCRIPT TABLE [ARGUMENT…]
+# add FIGURE SCRIPT TABLE [ARGUMENT…]: a script NAME.gp, or a kind of curves.gp.
 add() {
-    sound "$@" && complete "$1" "$2" "$3" "${4-}" || return 0
-    (IFS='|'; printf '%s\n' "$*") >> "$new/plan"
+    name=$1 script=$2 table_drawn=$3
+    shift 3
+    sound "$name" "$table_drawn" "$@" && complete "$name" "$table_drawn" || return 0
+    case $script in
+        *.gp) (IFS='|'; printf '%s\n' "$name|$script|$table_drawn${1+|$*}") ;;
+        *) printf '%s\n' "$name|curves.gp|$table_drawn|$script|${1-}|${2-}" ;;
+    esac >> "$new/plan"
 }
 
 # have_modes: frequencies.dat has a frequency.
@@ -347,27 +326,60 @@ named() {
         }'
 }
 
-# plan_speeds NAME TABLE [COLUMNS [SCRIPT [TABLE]]]: NAME.gp, or SCRIPT, draws one speed of the table, unless all these columns are zero.
+# plan_speeds FIGURE SCRIPT TABLE COLUMNS [ARGUMENT…]: one speed of the table each, unless all these columns (-: any) are zero.
 plan_speeds() {
-    speeds=$(ask 'distinct speed' "$2")
+    of_speeds=$1 by_script=$2 of_table=$3 columns=$4
+    shift 4
+    complete "$of_speeds" "$of_table" || return 0
+    speeds=$(ask 'distinct speed' "$of_table")
     n=$(printf '%s\n' "$speeds" | wc -l)
-    complete "$1" "${4-$1.gp}" "$2" || return 0
     speed_names=$(printf '%s\n' "$speeds" | named)
-    [ -z "${3-}" ] || speeds=$(ask "moving $3" "$2")
+    [ "$columns" = - ] || speeds=$(ask "moving speed $(echo "$columns" | tr , ' ')" "$of_table")
     for speed in $speeds; do
-        name=$1
-        [ "$n" -eq 1 ] || name=$1_speed_$(printf '%s\n' "$speed_names" | awk -v speed="$speed" '$1 == speed { print $2; exit }')
-        add "$name" "${4-$1.gp}" "$2" "$speed" ${5:+"$5"}
+        of_speed=$of_speeds
+        [ "$n" -eq 1 ] || of_speed=${of_speeds}_speed_$(printf '%s\n' "$speed_names" | awk -v speed="$speed" '$1 == speed { print $2; exit }')
+        add "$of_speed" "$by_script" "$of_table" "$speed" "$@"
+    done
+}
+
+# plan_table: the figures of figures.txt.
+plan_table() {
+    grep -v '^#' "$PLOTS/figures.txt" | while read -r one script table linkages law by others columns needed; do
+        case $linkages in any | "$linkage") ;; *) continue ;; esac
+        [ -z "$over" ] || [ "$law" = yes ] || continue
+        have "$table" || continue
+        case $by in
+            positions) several "$table" || continue ;;
+            angles) several "$table" && is_angle "$table" || continue ;;
+            speeds) several "$table" speed || continue ;;
+        esac
+        [ "$columns" != needed ] || columns=$(echo "$needed" | tr ' ' ,)
+        set --
+        [ "$others" = - ] || for other_table in $(echo "$others" | tr , ' '); do
+            # Over time, where the first table is.
+            [ -z "$over" ] || other_table=$over$other_table
+            [ -f "$other_table" ] || other_table=
+            set -- "$@" "$other_table"
+        done
+        [ ! -f "$over$table" ] || table=$over$table
+        case "$by $script" in
+            "table "*.gp | "speeds "*.gp) add "$one" "$script" "$table" "$@" ;;
+            "table "* | "speeds "*) add "$one" "$script" "$table" '' "$@" ;;
+            *) plan_speeds "$one" "$script" "$table" "$columns" "$@" ;;
+        esac
     done
 }
 
 plan_frequencies() {
-    [ -z "$structure" ] || return 0
-    [ $errors = yes ] && ask facts frequencies.dat | grep -q 'col_error[1-9]' && plan_speeds errors frequencies.dat
+    [ $linkage != structure ] || return 0
+    needed=+error
+    [ $errors = yes ] && ask facts frequencies.dat | grep -q 'col_error[1-9]' && plan_speeds errors errors.gp frequencies.dat -
     have_modes || return 0
-    plan_speeds frequencies frequencies.dat
+    needed=+f
+    plan_speeds frequencies frequencies.gp frequencies.dat -
     [ "$n" -gt 1 ] || return 0
     for mode in $(ask facts frequencies.dat | tr ' ' '\n' | sed -n 's/^col_f\([0-9][0-9]*\)$/\1/p'); do
+        needed=f$mode
         add "frequency_${mode}_by_speed" frequency_by_speed.gp frequencies.dat "$mode"
     done
 }
@@ -375,10 +387,10 @@ plan_frequencies() {
 # All modes on a page for each speed, and every one alone. Where a linkage is no plain chain of links the program places what stands
 # still, blocks and springs.
 plan_modes() {
-    if [ $other = yes ] || grep -q '^\(SPRING\|DAMPER\) ' echo.deck 2> /dev/null; then
+    if [ $linkage != four_bar ] || grep -q '^\(SPRING\|DAMPER\) ' echo.deck 2> /dev/null; then
         can_place && settings="$settings; is_placed = 1"
     fi
-    [ -n "${animate-}" ] || [ "$(ask 'distinct mode crank' shapes.dat | wc -l)" -eq 1 ] || plan_speeds modes shapes.dat
+    [ -n "${animate-}" ] || [ "$(ask 'distinct mode crank' shapes.dat | wc -l)" -eq 1 ] || plan_speeds modes modes.gp shapes.dat -
     ask 'distinct mode crank speed' shapes.dat | named | while read -r mode _ crank crank_name speed speed_name; do
         add "mode_${mode}_crank_${crank_name}_speed_$speed_name" "${animate:-mode_shape.gp}" shapes.dat "$mode" "$crank" "$speed"
     done
@@ -395,7 +407,7 @@ no_four_bar() {
 
 # cycle_table: a table of such a linkage with its positions.
 cycle_table() {
-    for table in pins.dat kinematics.dat drives.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat bearings.dat frame.dat friction.dat; do
+    for table in pins.dat kinematics.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat bearings.dat frame.dat friction.dat; do
         if [ -f $table ]; then
             echo $table
             return
@@ -403,75 +415,49 @@ cycle_table() {
     done
 }
 
-# plan_drives: what drives rigid links; drive.dat is the older name of their table.
-plan_drives() {
-    drives=
-    for table in drive.dat drives.dat; do
-        [ -f "$table" ] && ask facts "$table" | grep -q '; col_drive = ' && drives=$table
-    done
-    shaking=
-    [ -f shaking.dat ] && shaking=${over}shaking.dat
-    [ -n "$drives" ] && have "$drives" || return 0
-    plan_speeds drive_forces "$over$drives" '' drive_forces.gp "$shaking"
-    have sizing.dat && [ -z "$over" ] && add drive_locus drive_locus.gp sizing.dat "$drives"
-}
-
 # A linkage that is no four-bar. A structure has one position: nothing is drawn over it.
 plan_cycle() {
+    needed=crank
     if [ -n "$cycle" ] && have "$cycle" && several "$cycle" && can_place; then
         add linkage_positions linkage_positions.gp "$cycle"
         [ "${format:-png}" = png ] && can_animate && add linkage animate_cycle.gp "$cycle"
     fi
-    have kinematics.dat && plan_speeds link_motion "${over}kinematics.dat"
-    have pins.dat && plan_speeds pin_motion "${over}pins.dat"
-    have points.dat && plan_speeds point_rates "${over}points.dat" 'vx vy ax ay'
-    [ -z "$structure" ] && have reactions.dat && plan_speeds joint_forces "${over}reactions.dat" 'fx fy'
-    plan_bearings
-    plan_drives
+    needed=
+    have sizing.dat && [ -z "$over" ] && have drive.dat && add drive_locus drive_locus sizing.dat '' drive.dat
     # Places of a slider have no directions, and by a law a force comes to one of them more than once.
-    if [ -n "$cycle" ] && [ -z "$over" ] && ask facts "$cycle" | grep -q "unit_crank = 'deg'"; then
-        [ -f balance.dat ] && shaking=balance.dat
-        [ -n "$shaking" ] && have "$shaking" && plan_speeds shaking_force "$shaking" 'shaking_x shaking_y'
+    if [ -n "$cycle" ] && [ -z "$over" ] && is_angle "$cycle"; then
+        needed='shaking_x shaking_y'
+        shaking=shaking.dat
+        [ ! -f balance.dat ] || shaking=balance.dat
+        have "$shaking" && plan_speeds shaking_force shaking_force.gp "$shaking" shaking_x,shaking_y
+        needed=
         # Where only the shaking force is balanced the remarks of the table say all.
-        [ ! -f balance.dat ] || ! grep -q '^# rms over a turn' balance.dat ||
-            plan_speeds balance balance.dat 'shaking_x shaking_y shaking_moment torque balanced_moment balanced_torque'
-    fi
-    have harmonics.dat && plan_speeds harmonics harmonics.dat largest
-    have lagrange.dat && plan_speeds lagrange "${over}lagrange.dat"
-    plan_equilibrium
-    have linkage.dat && add limits limits.gp linkage.dat
-    have motion.dat time && add motion motion.gp motion.dat
-}
-
-# Of any linkage: friction; loci of the forces in its joints, and of that on the frame beside the shaking force. Places of a slider
-# have no directions, and figures of a law are over time.
-plan_bearings() {
-    if have friction.dat; then
-        plan_speeds friction "${over}friction.dat" lost friction.gp "$([ -n "$over" ] || ls holding.dat 2> /dev/null)"
-    fi
-    [ -z "$over" ] || return 0
-    have bearings.dat && several bearings.dat && plan_speeds bearings bearings.dat magnitude
-    if have frame.dat && several frame.dat && ask facts frame.dat | grep -q "unit_crank = 'deg'"; then
-        plan_speeds frame_force frame.dat 'frame_x frame_y' shaking_force.gp
+        [ ! -f balance.dat ] || ! grep -q '^# rms over a turn' balance.dat || plan_balance balance.dat
     fi
 }
 
-# Of any linkage: where it rests, on its potential.
-plan_equilibrium() { [ ! -f equilibrium.dat ] || ! have potential.dat || add equilibrium equilibrium.gp potential.dat equilibrium.dat; }
+plan_balance() { plan_speeds balance balance "$1" shaking_x,shaking_y,shaking_moment,torque,balanced_moment,balanced_torque; }
+
+# is_angle TABLE: its positions are angles.
+is_angle() { ask facts "$1" | grep -q "unit_crank = 'deg'"; }
 
 # Angles always; what stands still has no curve worth drawing.
 plan_kinematics() {
+    needed='theta3 theta4 transmission_angle'
     add kinematics_angles kinematics.gp "${over}kinematics.dat" angles
-    [ "$(ask 'range omega3 omega4' kinematics.dat)" = '0 0' ] ||
+    needed='omega3 omega4'
+    [ -z "$(ask 'moving speed omega3 omega4' kinematics.dat)" ] ||
         add kinematics_velocities kinematics.gp "${over}kinematics.dat" velocities
-    [ "$(ask 'range alpha3 alpha4' kinematics.dat)" = '0 0' ] ||
+    needed='alpha3 alpha4'
+    [ -z "$(ask 'moving speed alpha3 alpha4' kinematics.dat)" ] ||
         add kinematics_accelerations kinematics.gp "${over}kinematics.dat" accelerations
+    needed=
 }
 
 # The program can place the linkage anew.
 can_place() {
     [ -n "$FLEXMECH" ] && [ -f echo.deck ] && return 0
-    remark 'drawing a linkage needs echo.deck and the program flexmech (FLEXMECH=PATH names it)'
+    remark_once 'drawing a linkage needs echo.deck and the program flexmech (FLEXMECH=PATH names it)'
     return 1
 }
 
@@ -490,84 +476,59 @@ can_animate() {
 }
 
 # plan_forces SCRIPT: at the speeds at which there is a force at all.
-plan_forces() { plan_speeds forces reactions.dat 'O2x O2y A3x A3y B3x B3y O4x O4y shaking_x shaking_y' "$1"; }
+plan_forces() {
+    needed='O2x O2y A3x A3y B3x B3y O4x O4y shaking_x shaking_y'
+    plan_speeds forces "$1" reactions.dat "$(echo "$needed" | tr ' ' ,)"
+    needed=
+}
 
 # The shaking force is drawn once, with counterweights if they are known.
-plan_rigid_dynamics() {
+plan_four_bar() {
     balance=
     have balance.dat && balance=balance.dat
     if have points.dat; then
-        plan_speeds point_rates "${over}points.dat" 'vx vy ax ay'
         if ! several points.dat; then
             remark 'paths of points need several positions'
         elif can_place; then
+            needed='x y'
             # The path of a mass centre is that of even positions.
             add coupler_curve coupler_curve.gp points.dat "$(telling_crank points.dat)" "$([ -n "$over" ] || echo "$balance")"
+            needed=crank
             [ "${format:-png}" = png ] && can_animate && add linkage animate_linkage.gp points.dat points.dat
+            needed=
         fi
     fi
     have linkage.dat && can_place && add special_positions special_positions.gp linkage.dat
-    have reactions.dat &&
-        plan_speeds reactions "${over}reactions.dat" 'O2x O2y A2x A2y A3x A3y B3x B3y B4x B4y O4x O4y torque'
-    if [ -n "$over" ]; then
-        [ -z "$balance" ] ||
-            plan_speeds balance "${over}balance.dat" 'shaking_x shaking_y shaking_moment torque balanced_moment balanced_torque'
-        plan_drives
-        have lagrange.dat && plan_speeds lagrange "${over}lagrange.dat"
-        have pins.dat && plan_speeds pin_motion "${over}pins.dat"
-        return
+    [ -z "$balance" ] || plan_balance "${over}balance.dat"
+    [ -z "$over" ] || return
+    if have reactions.dat; then
+        can_place && plan_forces forces.gp
+        needed='shaking_x shaking_y'
+        plan_speeds shaking_force shaking_force.gp "${balance:-reactions.dat}" shaking_x,shaking_y
+        needed=
     fi
-    have reactions.dat && can_place && plan_forces forces.gp
-    [ -n "$balance" ] || ! have reactions.dat || plan_speeds shaking_force reactions.dat 'shaking_x shaking_y'
-    if [ -n "$balance" ]; then
-        plan_speeds shaking_force balance.dat 'shaking_x shaking_y'
-        plan_speeds balance balance.dat 'shaking_x shaking_y shaking_moment torque balanced_moment balanced_torque'
-    fi
-    plan_bearings
-    plan_drives
-    plan_equilibrium
-    have harmonics.dat && plan_speeds harmonics harmonics.dat largest
-    have lagrange.dat && plan_speeds lagrange lagrange.dat
-    have motion.dat && add motion motion.gp motion.dat
-    have pins.dat && plan_speeds pin_motion pins.dat
 }
 
-# The elastic response. Its strains at a gauge are drawn of all speeds too, if these are few; what is drawn against the speed needs
-# several.
+# The elastic response. Its strains at a gauge are drawn of all speeds too, if these are few.
 plan_response() {
-    if have response.dat; then
-        plan_speeds displacements response.dat 'ux uy'
-        plan_speeds pin_displacements response.dat 'ux uy'
-        if [ $other = no ] && several response.dat && can_place; then
-            [ -z "$(ask points response.dat)" ] || plan_speeds deviation response.dat 'ux uy'
-            plan_speeds deformed_linkage response.dat 'ux uy'
-        fi
+    if have response.dat && [ $linkage = four_bar ] && several response.dat && can_place; then
+        needed='ux uy'
+        ask 'distinct point' response.dat | grep -qv : && plan_speeds deviation deviation.gp response.dat ux,uy
+        needed='ux uy rotation'
+        plan_speeds deformed_linkage deformed_linkage.gp response.dat ux,uy
     fi
-    if have strains.dat; then
-        plan_speeds strains strains.dat 'axial_strain bending_strain stress'
-        if [ "$n" -gt 1 ] && [ "$n" -le 8 ]; then
-            for gauge in $(ask 'names gauge' strains.dat); do
-                add "strains_${gauge}_by_speed" gauge_by_speed.gp strains.dat "$gauge"
-            done
-        fi
+    needed='axial_strain bending_strain stress'
+    if have strains.dat && several strains.dat speed && [ "$(ask 'distinct speed' strains.dat | wc -l)" -le 8 ]; then
+        for gauge in $(ask 'distinct gauge' strains.dat); do
+            add "strains_${gauge}_by_speed" gauge strains.dat '' "$gauge"
+        done
     fi
-    have transient.dat && plan_speeds transient transient.dat 'ux uy' displacement_history.gp
-    have gauges.dat && plan_speeds transient_strains gauges.dat 'axial_strain bending_strain stress' strain_history.gp
-    [ "$drives" != drive.dat ] && have drive.dat && plan_speeds drive drive.dat 'rigid linear quadratic'
-    have torque.dat && plan_speeds torque torque.dat 'rigid linear quadratic' drive.gp
-    frequencies=
-    [ -f frequencies.dat ] && frequencies=frequencies.dat
-    have peaks.dat speed && several peaks.dat speed && add largest_strain largest_strain.gp peaks.dat "$frequencies"
-    critical=
-    [ -f critical.dat ] && critical=critical.dat
+    needed=
     intervals=
     [ -f intervals.dat ] && intervals=intervals.dat
-    have campbell.dat speed && several campbell.dat speed && add campbell campbell.gp campbell.dat "$critical" "$intervals"
-    have validity.dat speed && several validity.dat speed && add validity validity.gp validity.dat
-    have stability.dat speed && add multipliers multipliers.gp stability.dat
-    if [ -f stability.dat ] && have stability.dat speed && several stability.dat speed; then
+    if [ -f stability.dat ] && have stability.dat && several stability.dat speed; then
         add growth growth.gp stability.dat "$intervals"
-    elif [ -n "$intervals" ] && ask facts intervals.dat | grep -q col_largest_growth && have intervals.dat from; then
+    elif [ -n "$intervals" ] && ask facts intervals.dat | grep -q col_largest_growth && have intervals.dat; then
         add growth growth.gp '' "$intervals"
     fi
 }
@@ -576,16 +537,19 @@ plan_response() {
 plan_animations() {
     can_animate || fail 'this gnuplot lacks the terminal pngcairo or gif, which animations need'
     have shapes.dat && animate=animate_mode.gp plan_modes
-    if [ $other = yes ]; then
+    needed=crank
+    if [ $linkage != four_bar ]; then
         if [ -n "$cycle" ] && have "$cycle" && several "$cycle" && can_place; then add linkage animate_cycle.gp "$cycle"; fi
-        if have motion.dat time && several motion.dat time && can_place; then add motion animate_linkage_motion.gp motion.dat; fi
+        needed=
+        if have motion.dat && several motion.dat time && can_place; then add motion animate_linkage_motion.gp motion.dat; fi
         return
     fi
     if [ -z "$over" ] && have reactions.dat && [ "$(ask 'distinct crank' reactions.dat | wc -l)" -ge 12 ] && can_place; then
         plan_forces animate_forces.gp
     fi
     if have response.dat && [ "$(ask 'distinct crank' response.dat | wc -l)" -ge 12 ] && can_place; then
-        plan_speeds deformed_linkage response.dat 'ux uy' animate_response.gp
+        needed='ux uy rotation'
+        plan_speeds deformed_linkage animate_response.gp response.dat ux,uy
     fi
     points=
     have points.dat && points=points.dat
@@ -595,7 +559,9 @@ plan_animations() {
         return
     fi
     can_place || return
+    needed=crank
     add linkage animate_linkage.gp kinematics.dat "$points"
+    needed=
     have motion.dat && add motion animate_motion.gp motion.dat "$points"
 }
 
@@ -634,46 +600,42 @@ case " $(terminals) " in
 esac
 
 : > "$new/plan"
-other=no
-drives=
+linkage=four_bar
 cycle=
-structure=
 if no_four_bar; then
-    other=yes
+    linkage=other
     cycle=$(cycle_table)
     settings="$settings; is_cycle = 1"
-    [ ! -f echo.deck ] || grep -qi '^DRIVE ' echo.deck || structure=yes
-    [ -z "$structure" ] || settings="$settings; is_structure = 1"
+    [ ! -f echo.deck ] || grep -qi '^DRIVE ' echo.deck || { linkage=structure; settings="$settings; is_structure = 1"; }
 fi
 if [ -n "$varied" ]; then
     [ $figures = figures ] || fail "$outdir has nothing to animate: its tables are those of a deck with VARY"
     [ -f frequencies.dat ] || [ -f summary.dat ] ||
         fail "$outdir has nothing to draw: of a deck with VARY only frequencies.dat and summary.dat are drawn (REPORT frequencies, summary)"
-    if [ -f frequencies.dat ] && have frequencies.dat && have_modes; then
-        for parameter in $varied; do
-            add "frequencies_by_$parameter" varied.gp frequencies.dat "$parameter"
-        done
+    if have frequencies.dat && have_modes; then
+        needed=+f
+        for parameter in $varied; do add "frequencies_by_$parameter" varied.gp frequencies.dat "$parameter"; done
+        needed=
     fi
-    if [ -f summary.dat ] && have summary.dat rows; then
-        for parameter in $varied; do
-            add "summary_by_$parameter" summary.gp summary.dat "$parameter"
-        done
+    if have summary.dat; then
+        for parameter in $varied; do add "summary_by_$parameter" summary summary.dat '' "$parameter"; done
     fi
 elif [ $figures = animations ]; then
     plan_animations
 else
-    [ $other = no ] && [ -z "$over" ] && have inertia.dat && plan_mechanism
+    [ $linkage = four_bar ] && [ -z "$over" ] && have inertia.dat && plan_mechanism
     have mesh.dat && add finite_element_model finite_element_model.gp mesh.dat "$(telling_crank mesh.dat)"
     have frequencies.dat && plan_frequencies
-    have branches.dat && plan_speeds branches branches.dat
+    needed=
     have shapes.dat && plan_modes
-    if [ $other = yes ]; then
+    if [ $linkage != four_bar ]; then
         plan_cycle
     else
         have kinematics.dat && plan_kinematics
-        plan_rigid_dynamics
+        plan_four_bar
     fi
     plan_response
+    plan_table
 fi
 # What tables have instead of numbers and names, and the figures that it costs.
 if [ -f "$new/refused" ]; then
@@ -689,7 +651,7 @@ if [ ! -s "$new/plan" ]; then
         fail "$outdir has tables as comma-separated values only; figures are drawn from plain ones (without --format csv-only)"
     [ $figures = figures ] ||
         fail "$outdir has nothing to animate: animations need REPORT kinematics, motion or shapes"
-    [ -z "$structure" ] || fail "$outdir has nothing to draw: of a structure modes are drawn (REPORT shapes)"
+    [ $linkage != structure ] || fail "$outdir has nothing to draw: of a structure modes are drawn (REPORT shapes)"
     fail "$outdir has no table that a figure can be drawn from"
 fi
 

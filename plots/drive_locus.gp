@@ -1,24 +1,21 @@
-# Torque against speed of every drive over the cycle, with the peak, root mean square and mean by which a motor is chosen.
-#   gnuplot -c drive_locus.gp sizing.dat OUT drive.dat [FIGURE [REMARK]]
+# Torque against speed of every drive over the cycle (curves.gp), from the other table, with the peak, root mean square and mean by which a
+# motor is chosen.
 
-load ARG0[1 : strlen(ARG0) - strlen("drive_locus.gp")]."style.gp"
-table = ARG1; out = ARG2; table_of_drives = ARG3; figure = argument(4); remark = argument(5)
-
-eval answer(table_of_drives, "facts")
-drive_names = names_in(table_of_drives, "drive")
+eval answer(other, "facts")
+drive_names = names_in(other, "drive")
 n_drives = words(drive_names)
 rows_told(program, path) = "awk ".quoted(program)." ".quoted(path)
 is_force(k) = system(rows_told(sprintf("!/^#/ && $2 == \"%s\" && $4 == \"peak_force\" && $3 == \"-\" { print 1; exit }", word(drive_names, k)), table)) eq "1"
 unit_in(k, quantity) = system(rows_told(sprintf("!/^#/ && $2 == \"%s\" && $3 == \"-\" && $4 == \"%s\" { print $6; exit }", \
     word(drive_names, k), quantity), table))
 sized(k) = is_force(k) ? "force" : "torque"
-headline = numbered(figure, "Torque against speed of the drives over the cycle")
+headline = "Torque against speed of the drives over the cycle"
 note = "curve: at the positions of drive.dat; bars: peak, rms (with both signs) and mean over the whole cycle"
 
 # Rate and torque of a drive at all positions, an empty line between speeds; then a value of every speed as a bar across, with both
 # signs as two.
 drive_rows(k) = "< ".rows_told(sprintf("!/^#/ && $3 == \"%s\" { if (NR > 1 && $1 != last) print \"\"; last = $1; print $5, $6 }", \
-    word(drive_names, k)), table_of_drives)
+    word(drive_names, k)), other)
 value_rows(k, quantity, both) = "< ".rows_told(sprintf("!/^#/ && $2 == \"%s\" && $3 == \"-\" { ", word(drive_names, k)).\
     sprintf("if ($4 == \"%s\") value = $5; if ($4 == \"rate\") for (sign = 1; sign >= (%d ? -1 : 1); sign -= 2) ", quantity, both).\
     sprintf("{ if (made++) print \"\"; for (i = 0; i < %d; i++) print $5 + %.9g*(2*i/%d - 1), sign*value } }", \
@@ -28,20 +25,11 @@ bar = 0.0
 most_rows = 2
 source_of(k) = k == 1 ? drive_rows(panel) : value_rows(panel, word("- peak_ rms_ mean_", k).sized(panel), k == 3)
 x = "$1"
-picked = "1"
-panels = n_drives
-array axis_of[panels]
-array unit_of[panels]
-array curves_of[panels]
-array titles_of[panels]
 low_rate = 0.0
 high_rate = 0.0
-do for [k=1:panels] {
-    panel = k
-    axis_of[k] = n_drives > 1 ? sized(k)." of ".inside(word(drive_names, k), 14) : is_force(k) ? "driving force" : "driving torque"
-    unit_of[k] = unit_in(k, "peak_".sized(k))
-    curves_of[k] = "$2 $2 $2 $2"
-    titles_of[k] = "'over the cycle' peak rms mean"
+do for [k=1:n_drives] {
+    panel = panel_of(n_drives > 1 ? sized(k)." of ".inside(word(drive_names, k), 14) : is_force(k) ? "driving force" : "driving torque", \
+        unit_in(k, "peak_".sized(k)), "$2 $2 $2 $2", "'over the cycle' peak rms mean")
     stats source_of(1) using 1 name "rates" nooutput
     low_rate = lesser(low_rate, 1.2*rates_min)
     high_rate = larger(high_rate, 1.2*rates_max)
@@ -52,5 +40,3 @@ rate_unit = unit_in(1, "rate")
 same_units = 1
 do for [k=2:panels] { if (unit_in(k, "rate") ne rate_unit) { same_units = 0 } }
 x_axis = "set xrange [low_rate:high_rate]; set xtics autofreq; set format x '%h'; set xlabel 'speed of the drive'.(same_units ? bracketed(typeset(rate_unit)) : '')"
-call plots."panels.gp"
-eval close

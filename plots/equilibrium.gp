@@ -1,14 +1,9 @@
-# Where a linkage rests without its drive: its potential over the ranges of the drive with the rests, and what a drive would have to
-# give.
-#   gnuplot -c equilibrium.gp potential.dat OUT equilibrium.dat [FIGURE [REMARK]]
+# Where a linkage rests without its drive (curves.gp): its potential over the ranges of the drive with the rests of the other table, and
+# what a drive would have to give.
 
-load ARG0[1 : strlen(ARG0) - strlen("equilibrium.gp")]."style.gp"
-table = ARG1; out = ARG2; rests = ARG3; figure = argument(4); remark = argument(5)
-
-eval answer(table, "facts")
 # Crank, verdict, potential, stiffness, frequency.
-load "< awk ".quoted("BEGIN { print \"$rests << EOD\" } !/^#/ && NF { print $1, $2, $3, $4, $5 } END { print \"EOD\" }")." ".quoted(rests)
-headline = numbered(figure, "Where the linkage rests without its drive")
+load "< awk ".quoted("BEGIN { print \"$rests << EOD\" } !/^#/ && NF { print $1, $2, $3, $4, $5 } END { print \"EOD\" }")." ".quoted(other)
+headline = "Where the linkage rests without its drive"
 
 # A few are told in the notes, stable ones with their frequencies.
 verdicts = ""
@@ -22,17 +17,10 @@ note = |$rests| == 0 ? "it rests nowhere" : words(verdicts) > 10 ? "frequencies 
 if (words(verdicts) <= 10 && strstrt(verdicts, " unstable") > 0) {
     remark = listed_as("unstable", "unstable: ").(remark eq "" ? "" : "; ".remark)
 }
-source_of(k) = table
-picked = "1"
-x = "field('crank')"
-x_axis = "eval crank_axis(low_crank, high_crank)"
-panels = 2
-array axis_of[2] = ["potential", unit_crank eq "deg" ? "torque to hold it" : "force to hold it"]
-array unit_of[2] = [unit_potential, unit_torque]
 # What is only rounding is nothing.
 nothing = larger(abs(low_torque), abs(high_torque)) < 1e-12*larger(abs(low_potential), abs(high_potential))
-array curves_of[2] = ["field('potential')", nothing ? "0" : "field('torque')"]
-array titles_of[2] = ["'it rests everywhere'", "torque"]
+added = panel_of("potential", unit_potential, fields("potential"), "'it rests everywhere'")
+added = panel_of(unit_crank eq "deg" ? "torque to hold it" : "force to hold it", unit_torque, nothing ? "0" : fields("torque"), "torque")
 
 # Between two rows of this word it rests everywhere.
 height(panel) = panel == 1 ? "3" : "(0)"
@@ -48,5 +36,3 @@ parts_above(panel) = |$rests| == 0 ? "" : rests_with("unstable", panel, "points 
 keys_of(panel) = panel > 1 ? "" : (has_rest("stable") ? ", keyentry with ".stable_look." title 'stable rest'" : "").\
     (has_rest("unstable") ? ", keyentry with ".unstable_look." title 'unstable rest'" : "").\
     (has_rest("indifferent") ? ", keyentry with ".everywhere_look." title 'it rests everywhere'" : "")
-call plots."panels.gp"
-eval close

@@ -40,7 +40,7 @@ for branch in - open crossed; do
     place "$(cut -d' ' -f2 "$work/kept" | uniq | paste -s -d, -)" || exit 1
     sed "s/^/$branch /" "$work/kept" >> "$work/places"
     awk -v want=poses -f "$PLOTS/quoted.awk" -f "$PLOTS/tables.awk" < "$work/drawn/geometry.dat" | sed "s/^/$branch /" >> "$work/poses"
-    awk -v want='names link' -f "$PLOTS/quoted.awk" -f "$PLOTS/tables.awk" < "$work/drawn/geometry.dat" > "$work/links"
+    awk -v want='distinct link' -f "$PLOTS/quoted.awk" -f "$PLOTS/tables.awk" < "$work/drawn/geometry.dat" > "$work/links"
     turns=0
     grep -q '^# limit positions of the crank: none$' "$work/drawn/geometry.dat" && turns=1
     # Where two pins meet the linkage has no place of its own: it is drawn as it tends to be.
@@ -50,7 +50,7 @@ for branch in - open crossed; do
     awk -v want=poses -f "$PLOTS/quoted.awk" -f "$PLOTS/tables.awk" < "$work/drawn/geometry.dat" | sed 's/^[^ ]* //' | paste -d' ' "$work/failed" - |
         awk -v branch=$branch 'NF > 1 { $1 = sprintf("%.17g", $1); print branch, $0 }' >> "$work/poses"
 done
-[ -z "$points" ] || awk -v want=points -f "$PLOTS/quoted.awk" -f "$PLOTS/tables.awk" < "$points" > "$work/points"
+[ -z "$points" ] || awk -v want='distinct point' -f "$PLOTS/quoted.awk" -f "$PLOTS/tables.awk" < "$points" | grep -v : > "$work/points"
 [ -n "$points" ] || : > "$work/points"
 
 echo "turns_fully = $turns"

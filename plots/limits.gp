@@ -8,7 +8,7 @@ table = ARG1; out = ARG2; figure = argument(3); remark = argument(4)
 eval answer(table, "facts")
 load keep("limits", table, "limits")
 n_rows = |$limits|
-length_unit = answer(table, "names unit")." "
+length_unit = answer(table, "distinct unit")." "
 is_length(name) = strstrt(" deg 1 ", " ".name." ") == 0
 length_of_list = ""
 do for [k=1:words(length_unit)] { if (is_length(word(length_unit, k))) { length_of_list = word(length_unit, k) } }

@@ -12,7 +12,7 @@ poses_as(block) = sprintf("< rm -rf %s; sh %s %s %s %s", quoted(angles.".d"), qu
 # Once a block is there: the pivots in parts.
 pivots = "O2_x = real(O2); O2_y = imag(O2); O4_x = real(O4); O4_y = imag(O4)"
 
-point_names = table_of_poses eq "" ? "" : words_in(table_of_poses, "points")
+point_names = table_of_poses eq "" ? "" : words_of(ask(table_of_poses, "distinct point")." | grep -v :")
 points = words(point_names)
 array point_link[points + 1]
 column_of(p) = 4 + 2*p                              # in a row of poses, of the x of a point; its y is in the next

@@ -1,17 +1,9 @@
-# A motion from its start: angular velocities, torque of the motor and energies against time; positions too, unless all there is
-# to see is that the drive turns.
-#   gnuplot -c motion.gp motion.dat OUT [FIGURE [REMARK]]
+# A motion from its start (curves.gp): angular velocities, torque of the motor and energies against time; positions too, unless all
+# there is to see is that the drive turns.
 
-load ARG0[1 : strlen(ARG0) - strlen("motion.gp")]."style.gp"
-table = ARG1; out = ARG2; figure = argument(3); remark = argument(4)
-
-eval answer(table, "facts")
-headline = numbered(figure, "Motion of the linkage under its motor and loads")
+headline = "Motion of the linkage under its motor and loads"
 note = "work: done by the motor less that taken by the loads;  kinetic + potential − work is constant"
-source_of(k) = table
-picked = "1"
-x = "field('time')"
-x_axis = "eval abscissa(low_time, high_time); set xlabel abscissa_title('time', unit_time, low_time, high_time)"
+eval over("time", "time")
 
 # Of a linkage that is no four-bar: position1, rate1 and so on, of coordinates that a remark names, with their units if some are angles
 # and others lengths: `1 drive arm in deg and rad/s`.
@@ -26,13 +18,6 @@ fields_of(kind, unit, k) = k > words(coordinates) ? "" : (own_unit(kind, k) ne u
 titles_by(kind, unit, k) = k > words(coordinates) ? "" : (own_unit(kind, k) ne unit ? "" : " \"".short_name(coordinates, k)."\"").\
     titles_by(kind, unit, k + 1)
 
-panels = 0
-array axis_of[6]
-array unit_of[6]
-array curves_of[6]
-array titles_of[6]
-add_panel(name, unit, curves, titles) = (panels = panels + 1, axis_of[panels] = name, unit_of[panels] = unit, \
-    curves_of[panels] = curves, titles_of[panels] = titles, panels)
 if (of_cycle) {
     of_one = words(coordinates) == 1
     do for [kind in "position rate"] {
@@ -47,21 +32,17 @@ if (of_cycle) {
                 if (words(titles) == 1) {
                     title = kind ne "rate" && of_one && unit_of_k ne "deg" ? drive_quantity(unit_of_k) : title." of ".word(titles, 1)
                 }
-                panel = add_panel(title, unit_of_k, fields_of(kind, unit_of_k, 1), titles)
+                added = panel_of(title, unit_of_k, fields_of(kind, unit_of_k, 1), titles)
             }
         }
     }
     unit_of_torque = !mixed ? unit_torque : \
         system("sed -n 's/^# *torque: of the motor on the first drive in \\([^;]*\\);.*/\\1/p' ".quoted(table))
-    panel = add_panel(own_unit("position", 1) eq "deg" ? "motor torque" : "motor force", unit_of_torque, "field('torque')", "motor")
+    added = panel_of(own_unit("position", 1) eq "deg" ? "motor torque" : "motor force", unit_of_torque, fields("torque"), "motor")
 } else {
-    if (high_crank - low_crank <= 360) { panel = add_panel("crank angle θ₂", unit_crank, "field('crank')", "crank") }
-    panel = add_panel("angular velocity", unit_omega2, "field('omega2') field('omega4')", "'crank ω₂' 'follower ω₄'")
-    panel = add_panel("motor torque", unit_torque, "field('torque')", "motor")
+    if (high_crank - low_crank <= 360) { added = panel_of("crank angle θ₂", unit_crank, fields("crank"), "crank") }
+    added = panel_of("angular velocity", unit_omega2, fields("omega2 omega4"), "'crank ω₂' 'follower ω₄'")
+    added = panel_of("motor torque", unit_torque, fields("torque"), "motor")
 }
-panel = add_panel("energy", unit_kinetic, energy_curve("kinetic", low_kinetic, high_kinetic)." ".\
-    energy_curve("potential", low_potential, high_potential)." field('work')", \
-    energy_title("kinetic", low_kinetic, high_kinetic, unit_kinetic)." ".\
-    energy_title("potential", low_potential, high_potential, unit_potential)." work")
-call plots."panels.gp"
-eval close
+added = panel_of("energy", unit_kinetic, energy_curve("kinetic").energy_curve("potential").fields("work"), \
+    energy_title("kinetic").energy_title("potential")." work")

@@ -6,17 +6,8 @@ table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argum
 
 load plots."drawing.gp"
 eval answer(table, "facts")
-pins = ""
-drawn_pins = " "
-do for [name in words_in(table, "displaced")] {
-    pin_found = name[1 : strstrt(name, ":") - 1]
-    if (strstrt(name, ":") > 0 && strstrt(drawn_pins, " ".pin_found." ") == 0) {
-        pins = pins." ".quoted_twice(name)
-        drawn_pins = drawn_pins.pin_found." "
-    }
-}
+pins = displaced_pins(table)
 n = words(pins)
-name_of(k) = word(pins, k)[1 : strstrt(word(pins, k), ":") - 1]
 moved_of(k) = rows_if(table, is_named("point", word(pins, k))." && ".is_at("speed", ARG3))
 x_min = 0.0; x_max = 0.0; y_min = 0.0; y_max = 0.0
 do for [k=1:n] {
@@ -32,7 +23,7 @@ y1 = y_max + room
 headline = numbered(figure, sprintf("Displacements of pins of the elastic linkage, %s", at_speed(speed, unit_speed)))
 note = "elastic less rigid linkage, in global axes, over a turn of the crank; circle: at the first crank angle of the table"
 load plots."legend.gp"
-do for [k=1:n] { eval entry_line(inside(name_of(k), name_length), sprintf("lt %d", k)) }
+do for [k=1:n] { eval entry_line(inside(pin_of(word(pins, k)), name_length), sprintf("lt %d", k)) }
 length_unit = unit_ux
 load plots."frame.gp"
 set grid lt 1 lw 1 lc rgb "#D0D0D0" dt solid

@@ -123,8 +123,14 @@ is_at(column, number) = sprintf("($%d - %s)^2 <= 1e-18*(1 + $%d^2)", value("col_
 is_numbered(name, word) = strlen(name) > strlen(word) && name[1 : strlen(word)] eq word \
     && strstrt("123456789", name[strlen(word) + 1 : strlen(word) + 1]) > 0              # f1, f12
 repeated(k, text) = k < 1 ? "" : repeated(k - 1, text)." ".text
-words_in(table, want) = system(ask(table, want)." | sed 's/.*/\"&\"/'")     # every line of an answer a word, whatever is in it
-names_in(table, name) = words_in(table, "names ".name)
+words_of(command) = system(command." | sed 's/.*/\"&\"/'")               # every line of an answer a word, whatever is in it
+words_in(table, want) = words_of(ask(table, want))
+names_in(table, name) = words_in(table, "distinct ".name)
+# Points that are displaced at all; of pins, which stand in a table as ends of links, the first such end, and what is before its colon.
+displaced_points(table) = words_of(ask(table, "moving point ux uy")." | grep -v :")
+displaced_pins(table) = words_of(ask(table, "moving point ux uy")." | grep : | awk -F: '!met[$1]++'")
+pin_of(name) = name[1 : strstrt(name, ":") - 1]
+is_by_cards(table) = system("grep -c '^# rms over a turn' ".quoted(table)) + 0      # balanced by BALANCE cards
 
 # ---- Words ----------------------------------------------------------------------------------------------------
 
@@ -296,14 +302,6 @@ parts_below(panel) = ""
 parts_above(panel) = ""
 keys_of(panel) = ""
 legend_once = 0                                     # all panels have the same curves, and one legend beside them
-
-# Energies that are far from zero beside what changes, kinetic ones of a flywheel or potentials, whose zero is a matter of choice, are
-# drawn less their least value, as their titles say.
-energy_base(low, high) = high - low > 0.25*larger(abs(low), abs(high)) ? 0.0 : low
-energy_curve(name, low, high) = energy_base(low, high) == 0 ? sprintf("field('%s')", name) \
-    : sprintf("(field('%s')-(%.17g))", name, energy_base(low, high))
-energy_title(name, low, high, unit) = energy_base(low, high) == 0 ? name : sprintf("'%s %s %s %s'", name, low > 0 ? "−" : "+", \
-    abs(low) < 1e4 || abs(low) > 1e9 ? sprintf("%.4g", abs(low)) : sprintf("%.0f", abs(low)), typeset(unit))
 
 # ---- Curves against the crank angle ---------------------------------------------------------------------------
 # The legend stands in columns of its own at the right, so it never meets a curve; what is beyond three columns is counted.

@@ -1,11 +1,6 @@
-# What summary.dat has of every variant against a varied parameter: bands from the least to the greatest value with the mean between.
-#   gnuplot -c summary.gp summary.dat OUT PARAMETER [FIGURE [REMARK]]
-# Frequencies share a panel, damping ratios too, every other quantity has its own. Other parameters are those of the first row.
+# What summary.dat has of every variant against a varied parameter (curves.gp): bands from the least to the greatest value with the mean
+# between. Frequencies share a panel, damping ratios too, every other quantity has its own. Other parameters are those of the first row.
 
-load ARG0[1 : strlen(ARG0) - strlen("summary.gp")]."style.gp"
-table = ARG1; out = ARG2; parameter = ARG3; figure = argument(4); remark = argument(5)
-
-eval answer(table, "facts")
 varied = answer(table, "varied")
 # A name may be one that no variable can have.
 unit_named(name) = (its_unit = answer(table, "unit ".name), its_unit eq "-" ? "" : typeset(its_unit))
@@ -14,11 +9,11 @@ fixed = ""
 place = 0
 do for [k=1:words(varied)] {
     name = word(varied, k)
-    if (name eq parameter) { place = k } else { fixed = fixed.(fixed eq "" ? ";  " : ", ").with_unit(sprintf("%s = %.10g", inside(name, 30), word(answer(table, "distinct ".name), 1) + 0), name) }
+    if (name eq other) { place = k } else { fixed = fixed.(fixed eq "" ? ";  " : ", ").with_unit(sprintf("%s = %.10g", inside(name, 30), word(answer(table, "distinct ".name), 1) + 0), name) }
 }
 echo = system("dirname ".quoted(table))."/echo.deck"
-meaning = system("[ ! -f ".quoted(echo)." ] || awk -v name=".quoted(parameter)." -f ".quoted(plots."meaning.awk")." < ".quoted(echo))
-headline = numbered(figure, "Least, mean and greatest against ".(meaning eq "" ? inside(parameter, 50) : "the ".inside(meaning, 50)))
+meaning = system("[ ! -f ".quoted(echo)." ] || awk -v name=".quoted(other)." -f ".quoted(plots."meaning.awk")." < ".quoted(echo))
+headline = "Least, mean and greatest against ".(meaning eq "" ? inside(other, 50) : "the ".inside(meaning, 50))
 note = "bands: least to greatest over the computed positions and speeds, lines: mean".fixed
 
 # The quantities of every panel: their names in the columns.
@@ -34,36 +29,22 @@ do for [name in columns] {
         }
     }
 }
-panels = (words(frequencies) > 0) + (words(ratios) > 0) + words(others)
-array quantities_of[panels]
-array axis_of[panels]
-array unit_of[panels]
-array curves_of[panels]
-array titles_of[panels]
-panel = 0
-if (words(frequencies) > 0) { panel = panel + 1; quantities_of[panel] = frequencies; axis_of[panel] = "natural frequency" }
-if (words(ratios) > 0) { panel = panel + 1; quantities_of[panel] = ratios; axis_of[panel] = "damping ratio" }
+array quantities_of[99]
 with_blanks(text) = strstrt(text, "_") == 0 ? text : text[1 : strstrt(text, "_") - 1]." ".with_blanks(text[strstrt(text, "_") + 1 : *])
-do for [name in others] { panel = panel + 1; quantities_of[panel] = name; axis_of[panel] = with_blanks(name) }
-do for [panel=1:panels] {
-    unit_of[panel] = value("unit_".word(quantities_of[panel], 1)."_mean")
-    curves_of[panel] = ""
-    titles_of[panel] = ""
-    do for [name in quantities_of[panel]] {
-        curves_of[panel] = curves_of[panel].sprintf(" field('%s_mean')", name)
-        titles_of[panel] = titles_of[panel]." ".(axis_of[panel] eq with_blanks(name) ? "mean" : name)
-    }
-}
+mean_of(k, quantities) = k > words(quantities) ? "" : " ".word(quantities, k)."_mean".mean_of(k + 1, quantities)
+panel_of_means(name, quantities, titles) = panel_of(name, value("unit_".word(quantities, 1)."_mean"), fields(mean_of(1, quantities)), titles)
+if (words(frequencies) > 0) { quantities_of[panels + 1] = frequencies; added = panel_of_means("natural frequency", frequencies, frequencies) }
+if (words(ratios) > 0) { quantities_of[panels + 1] = ratios; added = panel_of_means("damping ratio", ratios, ratios) }
+do for [name in others] { quantities_of[panels + 1] = name; added = panel_of_means(with_blanks(name), name, "mean") }
 
-source_of(k) = "< awk -v want=".quoted("rows_by ".parameter)." -f ".quoted(plots."quoted.awk")." -f ".quoted(plots."tables.awk")." < ".quoted(table)
+source_of(k) = "< awk -v want=".quoted("rows_by ".other)." -f ".quoted(plots."quoted.awk")." -f ".quoted(plots."tables.awk")." < ".quoted(table)
 x = sprintf("column(%d)", place)
-picked = "1"
-extent = answer(table, "range ".parameter)
+extent = answer(table, "range ".other)
 low_place = word(extent, 1) + 0.0
 high_place = word(extent, 2) + 0.0
 # A single value has a band without width: its ends are drawn as points.
 if (high_place == low_place) { margin = low_place == 0 ? 1 : 0.01*abs(low_place); low_place = low_place - margin; high_place = high_place + margin }
-x_title = "x_axis_title = abscissa_title(meaning eq '' ? parameter : meaning.', '.parameter, answer(table, 'unit '.parameter), low_place, high_place)"
+x_title = "x_axis_title = abscissa_title(meaning eq '' ? other : meaning.', '.other, answer(table, 'unit '.other), low_place, high_place)"
 x_axis = "eval abscissa(low_place, high_place); ".x_title."; set xlabel fitted(x_axis_title, plot_width + 100, 16) noenhanced ".\
     "font point_size(fit_size(x_axis_title, plot_width + 100, 20, 16))"
 
@@ -80,5 +61,3 @@ one_band(panel, k) = sprintf("source_of(1) using (%s):(field('%s_least')):(field
     x, word(quantities_of[panel], k), word(quantities_of[panel], k), k).edge(panel, k, "least").edge(panel, k, "greatest")
 bands(panel, k) = k > words(quantities_of[panel]) ? "" : one_band(panel, k).bands(panel, k + 1)
 parts_below(panel) = bands(panel, 1)
-call plots."panels.gp"
-eval close

@@ -1,11 +1,10 @@
 # Answers a question about one of the program's tables, read from standard input:
 #   want=facts                     title, the note that names links 3 and 4, number of rows, and of every column its
 #                                  place, unit, least and greatest value, as gnuplot assignments
-#   want="distinct crank speed"    the distinct values of these columns, a line each, in the table's order; =crank with all digits
-#   want="moving torque O2x"       the distinct speeds at which some of these columns is not zero throughout
-#   want="names link"              the names in this column, a line each, as they are written
-#   want="points"                  the names in the column point without those of pins, A:crank
-#   want="displaced"               the points of response.dat that are displaced at all
+#   want="distinct crank speed"    the distinct values of these columns, a line each, in the table's order; =crank with all digits, pin:link
+#                                  as A:crank
+#   want="moving speed torque O2x" those of this column, at which some of the columns behind it is not zero throughout
+#   want="rows 20 link theta"      the rows at speed 20, or at `all`, a datablock for every link in the table's order, name1, name2 …; an empty line where rows have failed; angles theta go on beyond 180 degrees
 #   want="range f1 f2"             the least and the greatest value found in these columns
 #   want="positive error1 error2"  the same of values above zero; nothing if there are none
 #   want="change f1 0"             speed, crank and f1's change in percent against the rows of speed 0
@@ -38,11 +37,8 @@
 #   want="displacements 20 8 A:crank B:coupler"    there, of these points: crank, then ux, uy and the rotation in radians of each
 #   want="branches 20"             the branches of branches.dat at speed 20, an index a branch, an empty line where rows
 #                                  have failed: crank, frequency, branch, 1 on its first row, 1 where a mark is drawn
-#   want="wide 20 link theta omega"     of a table with a row a link (or a pin, a drive …) at speed 20, a line a position: the crank, then
-#                                  theta and omega of every link; angles theta go on beyond 180 degrees; joint stands for pin and link
-#   want="joints 20"               of reactions.dat with a row a pin and link at speed 20, a line a position: the crank, then the size of
-#                                  the force at every joint; one for the two opposite forces at a pin of two links
-#   want="joint_names 20"          the names of these joints: A, or A:crank where the links feel different forces
+#   want="joints 20"               of reactions.dat with a row a pin and link at speed 20, a line a joint with a force: its number among them
+#                                  and its name, A, or A:crank where the links feel different forces; one for the two opposite ones of two links
 #   want="limits"                  of linkage.dat of a linkage that is no four-bar: a line a range of the first drive (1), a link that swings
 #                                  (2), a slider (3), a transmission angle (4) and a pressure angle (5): that number, the name, the least and
 #                                  the greatest value, where the drive is then, swing or stroke and time ratio (0: none), the name of what stops the
@@ -68,7 +64,7 @@ BEGIN {
     OFMT = CONVFMT = "%.11e"       # gnuplot takes the text 5e-05 for the number 5 and something behind it
     n_asked = split(want, asked, " ")
     header = 1
-    if (datablock) print "$" datablock " << EOD"
+    if (datablock && asked[1] != "rows") print "$" datablock " << EOD"
 }
 
 # The header: title, notes, names, units. A failed row is a comment too, but no part of it.
@@ -99,6 +95,7 @@ asked[1] == "rows_by" && /^# *failed / {
 }
 
 /^#/ || NF == 0 {
+    if (!gap[rows + 1]) gaps++
     gap[rows + 1] = path_broken = 1
     next
 }
@@ -131,24 +128,21 @@ asked[1] == "wrong" {
     }
 }
 
-asked[1] == "moving" && !($at["speed"] in moving) {
-    for (i = 2; i <= n_asked; i++) {
-        if (asked[i] in at && ($at[asked[i]] + 0 != 0 || !is_number($at[asked[i]]))) {
-            if (!($at["speed"] in moving)) print cell("speed")
-            moving[$at["speed"]] = 1
-        }
+asked[1] == "moving" && !($at[asked[2]] in seen) {
+    for (i = 3; i <= n_asked; i++) if (asked[i] in at && ($at[asked[i]] + 0 != 0 || !is_number($at[asked[i]]))) seen[$at[asked[2]]] = 1
+    if ($at[asked[2]] in seen) print cell(asked[2])
+}
+
+asked[1] == "rows" {
+    key = cell(asked[3]) ""
+    if (!(key in place)) { place[key] = ++places; rows_of[places] = "" }
+    if (asked[2] == "all" || same($at["speed"], asked[2])) {
+        if (gaps != gaps_before[key] && rows_of[place[key]] != "") rows_of[place[key]] = rows_of[place[key]] "\n"
+        if (asked[4] in at && gaps == gaps_before[key] && key in before) $at[asked[4]] = turned_on($at[asked[4]], before[key])
+        if (asked[4] in at) before[key] = $at[asked[4]]
+        gaps_before[key] = gaps
+        rows_of[place[key]] = rows_of[place[key]] $0 "\n"
     }
-}
-
-asked[1] == "names" || asked[1] == "points" && $at["point"] !~ /:/ {
-    name_found = $at[asked[1] == "names" ? asked[2] : "point"]
-    if (!(name_found in seen)) print name_found
-    seen[name_found] = 1
-}
-
-asked[1] == "displaced" && ($at["ux"] + 0 != 0 || $at["uy"] + 0 != 0) {
-    if (!($at["point"] in seen)) print $at["point"]
-    seen[$at["point"]] = 1
 }
 
 asked[1] == "range" {
@@ -310,25 +304,26 @@ asked[1] == "limits" && $at["quantity"] == "range_to" { value[2, shapes] = value
 
 asked[1] == "limits" && $at["quantity"] ~ /^(swing|stroke|time_ratio)$/ { value[$at["quantity"] == "time_ratio" ? 6 : 5, shapes] = $at["value"] }
 
-asked[1] == "wide" && same($at["speed"], asked[2]) || asked[1] ~ /^joint/ && same($at["speed"], asked[2]) {
-    if (!positions || $at["crank"] "" != crank[positions] "") {
-        crank[++positions] = $at["crank"] ""
-        broken[positions] = gap[rows]
+asked[1] == "joints" && same($at["speed"], asked[2]) {
+    if (!(($at["pin"], $at["link"]) in place)) {
+        place[$at["pin"], $at["link"]] = ++places
+        pin[places] = $at["pin"] ""
+        link_of[places] = $at["link"]
+        links_at[pin[places]]++
     }
-    key = asked[1] == "wide" && asked[3] != "joint" ? $at[asked[3]] : $at["pin"] ":" $at["link"]
-    if (!(key in seen)) { seen[key] = 1; key_of[++keys] = key; if (asked[1] != "wide") links_at[$at["pin"]]++ }
-    if (asked[1] == "wide") for (i = 4; i <= n_asked; i++) value[positions, key, i] = $at[asked[i]]
-    else {
-        value[positions, key, 4] = sqrt($at["fx"]^2 + $at["fy"]^2)
-        if (value[positions, key, 4] > greatest) greatest = value[positions, key, 4]
-    }
+    number = sqrt($at["fx"]^2 + $at["fy"]^2)
+    k = place[$at["pin"], $at["link"]]
+    if (number > high[k]) high[k] = number
+    if (number > greatest) greatest = number
+    if (crank[pin[k]] == $at["crank"] "" && absolute(number - value[pin[k]]) > apart[pin[k]]) apart[pin[k]] = absolute(number - value[pin[k]])
+    crank[pin[k]] = $at["crank"] ""
+    value[pin[k]] = number
 }
 
 END {
     if (header) name_columns()
-    if (asked[1] == "wide") { last_asked = n_asked; print_wide() }
-    if (asked[1] ~ /^joint/) { join_forces(); last_asked = 4; if (asked[1] == "joints") print_wide() }
-    if (asked[1] == "joint_names") for (i = 1; i <= keys; i++) print (name_of[i])
+    if (asked[1] == "rows") for (i = 1; i <= places; i++) printf "$%s%d << EOD\n%s%s", datablock, i, rows_of[i] == "" ? nothing() : rows_of[i], i < places ? "EOD\n" : ""
+    if (asked[1] == "joints") print_joints()
     if (asked[1] == "facts") print_facts()
     if (asked[1] == "limits") print_limits()
     if (asked[1] == "unit") print unit[at[asked[2]]]
@@ -404,45 +399,21 @@ function print_facts(    i) {
     print ""
 }
 
-function print_wide(    n, k, i, line, number) {
-    for (n = 1; n <= positions; n++) {
-        if (broken[n] && n > 1) print ""
-        line = pointed(sprintf("%.12g", crank[n]))
-        for (k = 1; k <= keys; k++) {
-            for (i = 4; i <= last_asked; i++) {
-                number = value[n, key_of[k], i]
-                if (asked[i] == "theta" && number != "") {
-                    if (n > 1 && !broken[n]) number += 360 * int((before[k] - number) / 360 + (before[k] > number ? 0.5 : -0.5))
-                    before[k] = number
-                }
-                line = line " " (number == "" ? "NaN" : pointed(sprintf("%.12g", number)))
-            }
-        }
-        print line
-    }
+# A row of which no column has a value.
+function nothing(    i, text) {
+    for (i = 1; i <= n_columns; i++) text = text "NaN "
+    return text "\n"
 }
 
+function turned_on(angle, before) { return angle + 360 * int((before - angle) / 360 + (before > angle ? 0.5 : -0.5)) }
+
 # Two links at a pin feel opposite forces, unless a mass or a load takes some of it. The free end of a link feels none.
-function join_forces(    k, m, n, pin, other, kept, alike, felt) {
-    for (k = 1; k <= keys; k++) {
-        pin = substr(key_of[k], 1, index(key_of[k], ":") - 1)
-        other = 0
-        for (m = 1; m < k; m++) if (substr(key_of[m], 1, length(pin) + 1) == pin ":") other = m
-        alike = links_at[pin] <= 2
-        for (n = 1; other && n <= positions; n++)
-            if (absolute(value[n, key_of[k], 4] - value[n, key_of[other], 4]) > 1e-9 * greatest) alike = 0
-        single[k] = links_at[pin] == 1 || alike
-        felt = links_at[pin] > 1
-        for (n = 1; n <= positions; n++) if (value[n, key_of[k], 4] > 1e-12 * greatest) felt = 1
-        if (!felt && greatest > 0) dropped[k] = 1
-        if (other && alike) { single[other] = 1; dropped[k] = 1 } else if (other && links_at[pin] == 2) single[other] = 0
+function print_joints(    k, alike) {
+    for (k = 1; k <= places; k++) {
+        alike = links_at[pin[k]] == 2 && apart[pin[k]] <= 1e-9 * greatest
+        if (alike && met[pin[k]]++ || links_at[pin[k]] == 1 && greatest > 0 && high[k] <= 1e-12 * greatest) continue
+        print k, alike || links_at[pin[k]] == 1 ? pin[k] : pin[k] ":" link_of[k]
     }
-    for (k = 1; k <= keys; k++) {
-        if (dropped[k]) continue
-        key_of[++kept] = key_of[k]
-        name_of[kept] = single[k] ? substr(key_of[k], 1, index(key_of[k], ":") - 1) : key_of[k]
-    }
-    keys = kept
 }
 
 function print_limits(    kind, i, k, line) {
@@ -806,7 +777,8 @@ function turned(angle) { return atan2(sin(angle), cos(angle)) }
 
 function smaller(a, b) { return a < b ? a : b }
 
-function cell(column) { return column ~ /^=/ ? $at[substr(column, 2)] : short($at[column]) }
+# Names that look like numbers are names.
+function cell(column) { return column == "pin:link" ? $at["pin"] ":" $at["link"] : column ~ /^=/ ? $at[substr(column, 2)] : has_names(column) ? $at[column] : short($at[column]) }
 
 function short(text) { return text ~ /^[-+.]*[0-9]/ ? pointed(sprintf("%.12g", text)) : text }
 

@@ -1,0 +1,237 @@
+# Figures of curves over the rows of a table: panels below one another with one abscissa (panels.gp).
+#   gnuplot -c curves.gp TABLE OUT KIND [SPEED [OTHER [FIGURE [REMARK]]]]
+# KIND is one of the figures below, or the name of a script beside this one that says what is drawn; SPEED is that of the rows that are
+# drawn; OTHER a second table, or the name of the gauge or parameter that is drawn.
+
+load ARG0[1 : strlen(ARG0) - strlen("curves.gp")]."style.gp"
+table = ARG1; out = ARG2; kind = ARG3; speed = argument(4) eq "" ? 0 : argument(4) + 0; other = argument(5)
+figure = argument(6); remark = argument(7)
+
+eval answer(table, "facts")
+moment = argument(4) eq "" ? "" : at_speed(speed, unit_speed)
+note = ""
+source_of(k) = table
+picked = argument(4) eq "" ? "1" : "same(field('speed'),speed)"
+x = "field('crank')"
+x_axis = "eval crank_axis(low_crank, high_crank)"
+over(name, title) = sprintf("x = \"field('%s')\"; ", name).\
+    sprintf("x_axis = \"eval abscissa(low_%s, high_%s); set xlabel abscissa_title('%s', unit_%s, low_%s, high_%s)\"", name, name, title, name, name, name)
+
+# A panel: the title of its axis and its unit, its curves and their titles. Expressions in fields: of several columns, the size of a
+# vector, the same for all that rows_of has found.
+panels = 0
+array axis_of[99]
+array unit_of[99]
+array curves_of[99]
+array titles_of[99]
+panel_of(name, unit, curves, titles) = (panels = panels + 1, axis_of[panels] = name, unit_of[panels] = unit, \
+    curves_of[panels] = curves, titles_of[panels] = titles, panels)
+fields(names) = fields_from(1, names)
+fields_from(k, names) = k > words(names) ? "" : sprintf(" field('%s')", word(names, k)).fields_from(k + 1, names)
+size(vector) = sprintf("sqrt(field('%sx')**2+field('%sy')**2)", vector, vector)
+
+# A curve each for what a column names, `eval rows_of("link")`: names, with their beginnings in `shown`.
+rows_of(column_and_angle) = "load keep('rows', table, sprintf('rows %s ".column_and_angle."', argument(4) eq '' ? 'all' : argument(4))); ".\
+    "names = names_in(table, '".word(column_and_angle, 1)."'); shown = short_names(names, 1); picked = '1'; ".\
+    "source_of(k) = sprintf('$rows%d', k)"
+each(expression) = repeated(words(names), expression)
+
+# Energies that are far from zero beside what changes, kinetic ones of a flywheel or potentials, whose zero is a matter of choice, are
+# drawn less their least value, as their titles say.
+energy_base(low, high) = high - low > 0.25*larger(abs(low), abs(high)) ? 0.0 : low
+energy_curve(name) = energy_base(value("low_".name), value("high_".name)) == 0 ? fields(name) \
+    : sprintf(" (field('%s')-(%.17g))", name, value("low_".name))
+energy_title(name) = energy_base(value("low_".name), value("high_".name)) == 0 ? " ".name : sprintf(" '%s %s %s %s'", name, \
+    value("low_".name) > 0 ? "−" : "+", energy_text(abs(value("low_".name))), typeset(value("unit_".name)))
+energy_text(size) = size < 1e4 || size > 1e9 ? sprintf("%.4g", size) : sprintf("%.0f", size)
+
+if (kind eq "link_motion") {
+    headline = "Motion of the links, ".moment
+    eval rows_of("link theta")
+    added = panel_of("angle θ", unit_theta, each("field('theta')"), shown)
+    added = panel_of("velocity ω", unit_omega, each("field('omega')"), shown)
+    added = panel_of("acceleration α", unit_alpha, each("field('alpha')"), shown)
+    legend_once = 1
+}
+if (kind eq "pin_motion") {
+    headline = "Motion of the pins, ".moment
+    note = "speed and acceleration: sizes of the vectors"
+    eval rows_of("pin")
+    added = panel_of("x", unit_x, each("field('x')"), shown)
+    added = panel_of("y", unit_y, each("field('y')"), shown)
+    added = panel_of("speed", unit_vx, each(size("v")), shown)
+    added = panel_of("acceleration", unit_ax, each(size("a")), shown)
+    legend_once = 1
+}
+if (kind eq "point_rates") {
+    eval rows_of("point")
+    headline = sprintf("Speed and acceleration of %s".(of_cycle ? "" : " ".against).", %s", \
+        words(names) == 1 ? "point ".word(shown, 1) : "points", moment)
+    added = panel_of("speed", unit_vx, each(size("v")), shown)
+    added = panel_of("acceleration", unit_ax, each(size("a")), shown)
+}
+
+# At a pin with a mass or a load of its own the two links feel two forces.
+if (kind eq "reactions") {
+    headline = sprintf("Forces at the pins and driving torque %s, %s", against, moment)
+    note = link_note
+    array forces[2] = ["", ""]                      # at the pins of the crank, and at those of the follower
+    array titles[2] = ["", ""]
+    do for [pair in "O2: A2:A3 B3:B4 O4:"] {
+        one = pair[1:2]
+        another = pair[4:5]
+        k = one eq "O2" || one eq "A2" ? 1 : 2
+        unlike = 0
+        if (another ne "") {
+            eval sprintf("stats table using (%s ? abs(%s - %s)/(1e-300 + %s) : NaN) name 'pin' nooutput", picked, size(one), size(another), size(one))
+            unlike = pin_max > 1e-9
+        }
+        forces[k] = forces[k]." ".size(one).(unlike ? " ".size(another) : "")
+        titles[k] = titles[k].(unlike ? sprintf(" '%s on link %s' '%s on link %s'", one[1:1], one[2:2], another[1:1], another[2:2]) \
+            : sprintf(" '%s'", another eq "" ? one : one[1:1]))
+    }
+    added = panel_of("force at O2, A", unit_O2x, forces[1], titles[1])
+    added = panel_of("force at B, O4", unit_O2x, forces[2], titles[2])
+    added = panel_of("driving torque", unit_torque, fields("torque"), "torque")
+}
+
+# Joints without a force of their own are left out; six in a panel at most, as many in all.
+if (kind eq "joint_forces") {
+    eval rows_of("pin:link")
+    joints_found = words_in(table, "joints ".argument(4))
+    names = ""
+    do for [joint in joints_found] { names = names." ".quoted_twice(word(joint, 2)) }
+    headline = "Forces in the joints, ".moment
+    note = strstrt(names, ":") > 0 ? "A:link: force on that link, or of that guide, at pin A; A: the same on both" : ""
+    divided = int(ceil(words(names)/6.0))
+    in_panel = int(ceil(words(names)/(1.0*divided)))
+    source_of(k) = "$rows".word(word(joints_found, (panel - 1)*in_panel + k), 1)
+    short_from(k, last) = k > last ? "" : " \"".short_name(names, k)."\"".short_from(k + 1, last)
+    do for [k=1:divided] {
+        last_joint = lesser(words(names), k*in_panel)
+        added = panel_of("force", unit_fx, repeated(last_joint - (k - 1)*in_panel, size("f")), short_from((k - 1)*in_panel + 1, last_joint))
+    }
+}
+
+# Terms that are zero throughout are left out.
+if (kind eq "lagrange") {
+    headline = sprintf("Lagrange's equation of the %s, %s", of_cycle ? "drive" : by_law ? "crank" : "crank against its angle", moment)
+    note = of_cycle ? "torque = M α + V + gravity + load,  V = ½ M′ ω², with α and ω of the drive" \
+        : "torque = M α₂ + V + gravity + load,  V = ½ M′ ω₂²"
+    terms = "torque"
+    do for [name in "V gravity load"] { if (value("low_".name) != 0 || value("high_".name) != 0) { terms = terms." ".name } }
+    added = panel_of("reduced inertia M", unit_M, fields("M"), "M")
+    added = panel_of("torque", unit_torque, fields(terms), terms)
+    added = panel_of("energy", unit_kinetic, energy_curve("kinetic").energy_curve("potential"), energy_title("kinetic").energy_title("potential"))
+}
+if (kind eq "balance") {
+    headline = sprintf("Shaking force, shaking moment and driving torque, %s", moment)
+    note = is_by_cards(table) ? "balanced: with the counterweights and balance shafts of the BALANCE cards" : \
+        "balanced: with the counterweights of balance.dat on crank and follower, which cancel the shaking force"
+    added = panel_of("shaking force", unit_shaking_x, size("shaking_")." ".size("balanced_"), "given balanced")
+    added = panel_of("shaking moment", unit_shaking_moment, fields("shaking_moment balanced_moment"), "given balanced")
+    added = panel_of("driving torque", unit_torque, fields("torque balanced_torque"), "given balanced")
+}
+
+# Torques or forces of the drives, and from another table the shaking force and its moment.
+if (kind eq "drive_forces") {
+    is_length = strstrt(unit_position." ", "deg") != 1
+    eval rows_of("drive")
+    added = panel_of(unit_force eq "see_head" ? "torque or force" : is_length ? "driving force" : "driving torque", \
+        unit_force eq "see_head" ? "" : unit_force, each("field('force')"), shown)
+    headline = (is_length ? "Driving force" : "Driving torque").(other eq "" ? "" : " and shaking force").", ".moment
+    if (other ne "") {
+        note = "shaking force: resultant of −m a of all links"
+        eval answer(other, "facts")
+        source_of(k) = panel == 1 ? sprintf("$rows%d", k) : other
+        picked = "same(field('speed'),speed)"
+        added = panel_of("shaking force", unit_shaking_x, fields("shaking_x shaking_y"), "'across, x' 'up, y'")
+        added = panel_of("shaking moment", unit_shaking_moment, fields("shaking_moment"), "moment")
+    }
+}
+
+# The power lost in every joint that rubs, the force in it, and from another table what starts the linkage from rest.
+if (kind eq "friction") {
+    headline = "Friction in the joints, ".moment
+    eval rows_of("pin:link")
+    added = panel_of("power lost", unit_lost, each("field('lost')"), shown)
+    added = panel_of("force", unit_force, each("field('force')"), shown)
+    if (other ne "") {
+        note = "forward, backward: what starts the linkage from rest; between them, where they have opposite signs, it holds itself"
+        x = sprintf("(panel < 3 ? column(%d) : field('crank'))", col_crank)
+        eval answer(other, "facts")
+        source_of(k) = panel < 3 ? sprintf("$rows%d", k) : other
+        added = panel_of("drive at the start", unit_forward, fields("forward backward"), "forward backward")
+    }
+}
+
+# How far pins and points of the elastic linkage are from where rigid links would hold them, and how far the links are turned at the points,
+# over a turn or in time. A pin has a row for each of its links, A:crank and A:coupler, of one displacement; links turn as much as
+# their points do, pins have two rotations. Points stand first.
+if (kind eq "displacements" || kind eq "transient") {
+    headline = kind eq "transient" ? "Elastic motion in time, up to ".moment : "Displacements of the elastic linkage against crank angle, ".moment
+    if (kind eq "transient") { eval over("time", "time") }
+    note = "elastic less rigid linkage, in global axes"
+    points = displaced_points(table)
+    pins = displaced_pins(table)
+    shown_points = points eq "" ? "" : short_names(points, 1)
+    shown = shown_points
+    do for [name in pins] { shown = shown." ".quoted_twice(inside(pin_of(name), name_length)) }
+    names = points." ".pins
+    source_of(k) = rows_if(table, is_named("point", word(names, k)))
+    added = panel_of("displacement x", unit_ux, each("field('ux')"), shown)
+    added = panel_of("displacement y", unit_uy, each("field('uy')"), shown)
+    if (words(points) > 0) {
+        note = note."; rotation: of the link at its point"
+        added = panel_of("rotation", unit_rotation, repeated(words(points), "field('rotation')"), shown_points)
+    }
+}
+
+# Strains and stresses at the gauges over a turn or in time, and at one of them for every speed.
+if (kind eq "strains" || kind eq "transient_strains" || kind eq "gauge") {
+    note = "strains of the axis and, by bending alone, of the face of the gauge; stress: the largest of the cross-section"
+    if (kind eq "gauge") {
+        headline = sprintf("Strains and stress at %s against crank angle", inside(other, name_length))
+        names = answer(table, "distinct speed")
+        shown = ""
+        do for [name in names] { shown = shown.sprintf(" '%.5g %s'", name + 0, typeset(unit_speed)) }
+        source_of(k) = rows_if(table, is_named("gauge", other)." && ".is_at("speed", word(names, k)))
+    } else {
+        eval rows_of("gauge")
+        at_gauges = words(names) == 1 ? "at ".word(shown, 1)." " : kind eq "strains" ? "" : "at gauges "
+        headline = kind eq "strains" ? sprintf("Strains and stress %sagainst crank angle, %s", at_gauges, moment) \
+            : "Strains and stress in time ".at_gauges[1:strlen(at_gauges) - 1].", up to ".moment
+    }
+    if (kind eq "transient_strains") { eval over("time", "time") }
+    added = panel_of("bending strain", "µε", each("1e6*field('bending_strain')"), shown)
+    added = panel_of("axial strain", "µε", each("1e6*field('axial_strain')"), shown)
+    added = panel_of("stress", unit_stress, each("field('stress')"), shown)
+}
+if (kind eq "drive") {
+    headline = "Driving torque and power of the elastic linkage against crank angle, ".moment
+    note = "total = rigid (of rigid links) + linear + quadratic (in the elastic response);  power = total torque × ω₂"
+    added = panel_of("driving torque", unit_total, fields("total rigid"), "total rigid")
+    added = panel_of("elastic torque", unit_linear, fields("linear quadratic"), "linear quadratic")
+    added = panel_of("power", unit_power, fields("power"), "power")
+}
+
+# What limits the elastic response of every link: its deflection, its compression, terms that are left out.
+if (kind eq "validity") {
+    headline = "Limits of the elastic response against the speed of the crank"
+    note = "deflection: largest over a turn, linear equations become unreliable beyond 1 %;  buckling: of the link as pinned at both ends"
+    if (remark eq "") { remark = "distance from resonance: least |1 − ρ| of the multipliers ρ of a turn" }
+    eval rows_of("link")
+    eval over("speed", "crank speed ω₂")
+    is_logarithmic(panel) = panel < 4
+    also_shown(panel) = panel == 1 ? 1.0 : NaN
+    before_panel(panel) = panel != 1 ? "unset arrow 999" \
+        : "set arrow 999 from graph 0, first 1 to graph 1, first 1 nohead front lw 2.5 lc rgb '#A01850' dt solid"
+    added = panel_of("deflection / length", "%", each("100*field('deflection')"), shown)
+    added = panel_of("load / buckling load", "%", each("100*field('load')"), shown)
+    added = panel_of("quadratic terms", "%", each("(strcol(col_quadratic)eq'-'?0:100*abs(field('quadratic')))"), shown)
+    added = panel_of("distance |1 − ρ|", "", fields("distance"), "distance")
+}
+if (panels == 0) { load plots.kind.".gp" }
+headline = numbered(figure, headline)
+call plots."panels.gp"
+eval close
