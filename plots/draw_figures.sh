@@ -243,14 +243,14 @@ sound() {
     done
 }
 
-# add FIGURE SCRIPT TABLE [ARGUMENT…]: a script NAME.gp, or a kind of curves.gp.
+# add FIGURE SCRIPT TABLE [ARGUMENT…]: a script NAME.gp, or a kind of figure.gp.
 add() {
     name=$1 script=$2 table_drawn=$3
     shift 3
     sound "$name" "$table_drawn" "$@" && complete "$name" "$table_drawn" || return 0
     case $script in
         *.gp) (IFS='|'; printf '%s\n' "$name|$script|$table_drawn${1+|$*}") ;;
-        *) printf '%s\n' "$name|curves.gp|$table_drawn|$script|${1-}|${2-}" ;;
+        *) printf '%s\n' "$name|figure.gp|$table_drawn|$script|${1-}|${2-}" ;;
     esac >> "$new/plan"
 }
 

@@ -1,4 +1,4 @@
-# Torque against speed of every drive over the cycle (curves.gp), from the other table, with the peak, root mean square and mean by which a
+# Torque against speed of every drive over the cycle (figure.gp), from the other table, with the peak, root mean square and mean by which a
 # motor is chosen.
 
 eval answer(other, "facts")

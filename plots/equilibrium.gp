@@ -1,4 +1,4 @@
-# Where a linkage rests without its drive (curves.gp): its potential over the ranges of the drive with the rests of the other table, and
+# Where a linkage rests without its drive (figure.gp): its potential over the ranges of the drive with the rests of the other table, and
 # what a drive would have to give.
 
 # Crank, verdict, potential, stiffness, frequency.

@@ -1,4 +1,4 @@
-# A motion from its start (curves.gp): angular velocities, torque of the motor and energies against time; positions too, unless all
+# A motion from its start (figure.gp): angular velocities, torque of the motor and energies against time; positions too, unless all
 # there is to see is that the drive turns.
 
 headline = "Motion of the linkage under its motor and loads"

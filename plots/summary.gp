@@ -1,4 +1,4 @@
-# What summary.dat has of every variant against a varied parameter (curves.gp): bands from the least to the greatest value with the mean
+# What summary.dat has of every variant against a varied parameter (figure.gp): bands from the least to the greatest value with the mean
 # between. Frequencies share a panel, damping ratios too, every other quantity has its own. Other parameters are those of the first row.
 
 varied = answer(table, "varied")

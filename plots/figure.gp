@@ -1,9 +1,9 @@
 # Figures of curves over the rows of a table: panels below one another with one abscissa (panels.gp).
-#   gnuplot -c curves.gp TABLE OUT KIND [SPEED [OTHER [FIGURE [REMARK]]]]
+#   gnuplot -c figure.gp TABLE OUT KIND [SPEED [OTHER [FIGURE [REMARK]]]]
 # KIND is one of the figures below, or the name of a script beside this one that says what is drawn; SPEED is that of the rows that are
 # drawn; OTHER a second table, or the name of the gauge or parameter that is drawn.
 
-load ARG0[1 : strlen(ARG0) - strlen("curves.gp")]."style.gp"
+load ARG0[1 : strlen(ARG0) - strlen("figure.gp")]."style.gp"
 table = ARG1; out = ARG2; kind = ARG3; speed = argument(4) eq "" ? 0 : argument(4) + 0; other = argument(5)
 figure = argument(6); remark = argument(7)
 
