@@ -1,12 +1,8 @@
 # A linkage that is no four-bar as it moves: a cycle, or to and fro, with the paths of its pins and points.
-#   gnuplot -c animate_cycle.gp TABLE OUT [FIGURE [REMARK]]
 # TABLE has the columns speed and crank; the positions are between its first and its last.
 
-load ARG0[1 : strlen(ARG0) - strlen("animate_cycle.gp")]."style.gp"
-table = ARG1; out = ARG2; figure = argument(3); remark = argument(4)
 eval smaller(0.65)
 
-eval answer(table, "facts")
 call plots."driven.gp"
 pictures = turning ? 72*int(lesser(4, larger(1, cycle/360))) : 60
 call plots."shapes.gp" (turning ? 3*pictures : 240) 0.018
@@ -20,4 +16,3 @@ tail_shown(picture) = turning || picture <= pictures/2
 note = ""
 delay = 4
 call plots."animate_shapes.gp"
-eval close

@@ -1,14 +1,9 @@
 # The forces at the pins and the shaking force as the linkage moves, at one speed: a turn of the crank, or to and fro.
-#   gnuplot -c animate_forces.gp reactions.dat OUT SPEED [FIGURE [REMARK]]
 
-load ARG0[1 : strlen(ARG0) - strlen("animate_forces.gp")]."style.gp"
-table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
 eval smaller(0.65)
 
-load plots."drawing.gp"
 call plots."linkage.gp" ""
-eval answer(table, "facts")
-load keep("forces", table, sprintf("forces %s 72", ARG3))          # columns: see tables.awk
+load keep("forces", table, sprintf("forces %s 72", asked_speed))          # columns: see tables.awk
 load plots."force_arrows.gp"
 set print angles
 do for [k=1:|$forces|] { print word($forces[k], 1) }
@@ -62,11 +57,10 @@ do for [picture=1:pictures] {
     }
     now = row_of(picture)
     set output sprintf("%s_%03d", out, picture)
-    set label 905 sprintf("θ₂ = %.4g°,  %s", word($forces[now], 1) + 0, at_speed(speed, unit_speed)) at screen 0.5, up(30) \
+    set label 905 sprintf("θ₂ = %.4g°,  %s", word($forces[now], 1) + 0, moment) at screen 0.5, up(30) \
         center noenhanced font ",20"
     eval arrows_of($places[now], $forces[now])
     eval "plot ".pale_mechanism($places[now])."NaN notitle"
 }
 unset output
 call plots."gif.gp" out pictures turning ? floor(300.0/pictures + 0.5) : 5
-eval close

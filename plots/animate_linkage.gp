@@ -1,15 +1,11 @@
 # The linkage as it moves, with the paths of its points: a turn of the crank, or to and fro where it cannot turn.
-#   gnuplot -c animate_linkage.gp kinematics.dat OUT [points.dat [FIGURE [REMARK]]]
 # Without points.dat, the middle of the coupler draws its path.
 
-load ARG0[1 : strlen(ARG0) - strlen("animate_linkage.gp")]."style.gp"
-table = ARG1; out = ARG2; table_of_points = argument(3); figure = argument(4); remark = argument(5)
 eval smaller(0.65)
 
-eval answer(table, "facts")
 low = exists("home_low") && home_low > low_crank ? home_low : low_crank
 high = exists("home_low") && home_high < high_crank ? home_high : high_crank
-call plots."linkage.gp" table_of_points
+call plots."linkage.gp" other
 set print angles
 print low
 unset print
@@ -30,4 +26,3 @@ note = ""
 caption(row) = "θ₂ = ".sprintf("%d°", floor(word(row, 1)) % 360)
 tail = 24
 call plots."animate_poses.gp" 4 pictures 1
-eval close

@@ -1,12 +1,8 @@
 # The motion of motion.dat of a linkage that is no four-bar, in real time, or slowed down if it lasts less than a second or two; of
 # a long one, the first six seconds.
-#   gnuplot -c animate_linkage_motion.gp motion.dat OUT [FIGURE [REMARK]]
 
-load ARG0[1 : strlen(ARG0) - strlen("animate_linkage_motion.gp")]."style.gp"
-table = ARG1; out = ARG2; figure = argument(3); remark = argument(4)
 eval smaller(0.65)
 
-eval answer(table, "facts")
 call plots."motion_pictures.gp"
 
 # Positions between the pictures make paths smooth: every so many rows, some of them to a picture.
@@ -27,4 +23,3 @@ note = slower == 1 ? "" : sprintf("slowed down %g times", slower)
 tail = 3*fine
 tail_shown(picture) = 1
 call plots."animate_shapes.gp"
-eval close

@@ -1,13 +1,9 @@
 # The motion of motion.dat in real time, or slowed down if it lasts less than a second or two; of a long one, the first six seconds.
-#   gnuplot -c animate_motion.gp motion.dat OUT [points.dat [FIGURE [REMARK]]]
 
-load ARG0[1 : strlen(ARG0) - strlen("animate_motion.gp")]."style.gp"
-table = ARG1; out = ARG2; table_of_points = argument(3); figure = argument(4); remark = argument(5)
 eval smaller(0.65)
 
-call plots."linkage.gp" table_of_points
+call plots."linkage.gp" other
 eval middle_of_coupler
-eval answer(table, "facts")
 
 call plots."motion_pictures.gp"
 
@@ -29,4 +25,3 @@ note = slower == 1 ? "" : sprintf("slowed down %g times", slower)
 caption(row) = sprintf("t = %.2f %s,  ω₂ = %.1f %s", seconds[now], unit_time, rates[now], unit_omega2)
 tail = 6
 call plots."animate_poses.gp" delay pictures every_row
-eval close

@@ -1,12 +1,7 @@
 # The linkage as it bends over a turn in the elastic response at one speed, displacements made larger.
-#   gnuplot -c animate_response.gp response.dat OUT SPEED [FIGURE [REMARK]]
 
-load ARG0[1 : strlen(ARG0) - strlen("animate_response.gp")]."style.gp"
-table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
 eval smaller(0.65)
 
-load plots."drawing.gp"
-eval answer(table, "facts")
 call plots."linkage.gp" table
 share = 0.125
 want_positions = 90
@@ -51,11 +46,10 @@ do for [picture=1:positions_drawn] {
         call plots."ground.gp" sprintf("%.12g", O4_x) sprintf("%.12g", O4_y) size 11 "pinned"
     }
     set output sprintf("%s_%03d", out, picture)
-    set label 905 sprintf("θ₂ = %.4g°,  %s", word($moved[picture], 1) + 0, at_speed(speed, unit_speed)) at screen 0.5, up(30) \
+    set label 905 sprintf("θ₂ = %.4g°,  %s", word($moved[picture], 1) + 0, moment) at screen 0.5, up(30) \
         center noenhanced font ",20"
     eval "plot ".deformed_linkage($poses[picture], $moved[picture])."NaN notitle"
 }
 unset output
 delay = floor(600.0/positions_drawn + 0.5)
 call plots."gif.gp" out positions_drawn delay
-eval close

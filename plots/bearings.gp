@@ -1,16 +1,10 @@
 # The locus of the force in every joint at one speed: in the axes of the link on which it acts, and in global ones.
-#   gnuplot -c bearings.gp bearings.dat OUT SPEED [FIGURE [REMARK]]
 
-load ARG0[1 : strlen(ARG0) - strlen("bearings.gp")]."style.gp"
-table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
-
-load plots."drawing.gp"
-eval answer(table, "facts")
 joints = words_in(table, "distinct pin link")
 tiles = words(joints)
 pin_of(k) = word(word(joints, k), 1)
 link_of(k) = word(word(joints, k), 2)
-headline = numbered(figure, "Loci of the forces in the joints, ".at_speed(speed, unit_speed))
+headline = numbered(figure, "Loci of the forces in the joints, ".moment)
 note = "force on the link at the pin, of a guide on the pin, from the centre to the curve; dot: at the first position"
 load plots."legend.gp"
 own_style = "lw 3.5 dt solid lc rgb 'black'"
@@ -21,8 +15,8 @@ eval entry_line("in global axes", ground_style)
 # A joint has a scale of its own: the outer ring is drawn with radius 1.
 array ring_of[tiles]
 do for [k=1:tiles] {
-    load keep(sprintf("own_%d", k), table, "path ".ARG3." axial transverse ".word(joints, k))
-    load keep(sprintf("ground_%d", k), table, "path ".ARG3." fx fy ".word(joints, k))
+    load keep(sprintf("own_%d", k), table, "path ".asked_speed." axial transverse ".word(joints, k))
+    load keep(sprintf("ground_%d", k), table, "path ".asked_speed." fx fy ".word(joints, k))
     eval sprintf("stats $own_%d using (sqrt($1**2 + $2**2)) name 'found' nooutput", k)
     ring_of[k] = found_max > 0 ? found_max : 1.0
     ring = nice(ring_of[k]/4)
@@ -61,4 +55,3 @@ do for [k=1:tiles] {
         sprintf("$own_%d %s every ::0::0 with points pt 7 ps 1.5 lc rgb 'black' notitle", k, scaled)
 }
 unset multiplot
-eval close

@@ -1,11 +1,6 @@
 # The branches of one speed: frequencies followed by their shapes, against the crank angle, with their crossings and veerings.
-#   gnuplot -c branches.gp branches.dat OUT SPEED [FIGURE [REMARK]]
 # A branch has the same line at every speed.
 
-load ARG0[1 : strlen(ARG0) - strlen("branches.gp")]."style.gp"
-table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
-
-eval answer(table, "facts")
 load keep("curves", table, sprintf("branches %.12g", speed))       # columns: see tables.awk
 load keep("events", table, sprintf("events %.12g", speed))
 branches = ""
@@ -25,7 +20,7 @@ positions = words(answer(table, "distinct crank"))
 line(k) = high_branch <= 16 ? int(word(branches, k)) : k
 event(kind, value) = $1 == kind ? value : NaN
 
-headline = numbered(figure, sprintf("Branches of natural frequencies %s, %s", against_position(unit_crank), at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf("Branches of natural frequencies %s, %s", against_position(unit_crank), moment))
 note = low < 0 ? divergence : ""
 explained = (veerings > 0 ? "; veering: two branches approach, then part with their shapes exchanged" : "").\
     (ambiguous > 0 ? "; ambiguous: shapes do not decide which branch continues, a new one begins" : "")
@@ -149,4 +144,3 @@ do for [place=1:panels] {
     eval "plot ".parts."NaN notitle".keys
 }
 unset multiplot
-eval close

@@ -1,15 +1,13 @@
 # The Campbell diagram: frequencies against the speed of the crank, the lines n × speed, critical speeds on them.
-#   gnuplot -c campbell.gp campbell.dat OUT [critical.dat [intervals.dat [FIGURE [REMARK]]]]
 # Bands are those of the linkage frozen at the positions of a turn, with their means; dots are Floquet frequencies of the running
 # linkage. Speeds at which these grow are hatched: whole intervals if they are known.
 
-load ARG0[1 : strlen(ARG0) - strlen("campbell.gp")]."style.gp"
-table = ARG1; out = ARG2; critical = argument(3); intervals = argument(4); figure = argument(5); remark = argument(6)
+critical = other_table("critical.dat")
+intervals = other_table("intervals.dat")
 
 # Hertz to a unit of speed.
 hertz_of(unit) = unit eq "rpm" ? 1/60.0 : unit eq "deg/s" ? 1/360.0 : unit eq "Hz" || unit eq "rev/s" ? 1.0 : 1/(2*pi)
 
-eval answer(table, "facts")
 modes = int(high_mode)
 factor = hertz_of(unit_speed)
 greatest = larger(high_greatest, high_floquet)
@@ -103,4 +101,3 @@ plot for [k=1:modes] of_mode(k) using (abs(field("speed"))):(field("least")):(fi
     for [k=1:1] keyentry with lines lw 1.2 lc rgb "#8C8C8C" dt (9,5) title "n × speed", \
     for [k=1:has_critical] keyentry with points pt 6 lw 2.5 ps 2 lc rgb "#C00000" title "critical speed", \
     for [k=1:unstable > 0] keyentry with boxes fs transparent pattern 4 fc rgb "#B06080" title of_unstable
-eval close

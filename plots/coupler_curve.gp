@@ -1,12 +1,6 @@
 # The paths of the points of points.dat, and the mechanism at one position.
-#   gnuplot -c coupler_curve.gp points.dat OUT CRANK [balance.dat [FIGURE [REMARK]]]
 # The mechanism is drawn as bodies at CRANK; with balance.dat the path of the mass centre is drawn too.
 
-load ARG0[1 : strlen(ARG0) - strlen("coupler_curve.gp")]."style.gp"
-table = ARG1; out = ARG2; crank = ARG3 + 0; masses = argument(4); figure = argument(5); remark = argument(6)
-
-load plots."drawing.gp"
-eval answer(table, "facts")
 low = low_crank
 high = high_crank
 call plots."linkage.gp" table
@@ -37,10 +31,10 @@ eval extent
 do for [p=1:points] { stats $paths using (include(column(column_of(p)), column(column_of(p) + 1))) nooutput }
 span = larger(x_max - x_min, y_max - y_min)
 
-has_masses = masses ne ""
+has_masses = other ne ""
 if (has_masses) {
-    speed_of_masses = word(answer(masses, "distinct speed"), 1)
-    load keep("masses", masses, "path ".speed_of_masses." xG yG")
+    speed_of_masses = word(answer(other, "distinct speed"), 1)
+    load keep("masses", other, "path ".speed_of_masses." xG yG")
     stats $masses using (include($1, $2)) nooutput
     stats $masses using ($4 == 1 && abs($3 - crank) < 1e-6 ? (mass_x = $1, mass_y = $2, 1) : 0) nooutput
     if (!exists("mass_x")) { stats $masses using (mass_x = $1, mass_y = $2, 1) nooutput }
@@ -138,4 +132,3 @@ eval "plot ".mechanism_below(shown_row).springs_of(shown_row).halos.paths.mechan
     "with vectors nohead lw 1 dt solid lc rgb '#808080' notitle, ".\
     "$numbers using (unscaled_x($1)):(unscaled_y($2)):(text_behind(strcol(6))):(ink_before(strcol(6))) ".\
     "with labels tc rgb variable noenhanced font point_size(15) notitle"
-eval close

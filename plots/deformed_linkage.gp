@@ -1,11 +1,5 @@
 # The linkage as it bends in the elastic response at one speed: several positions of a turn, displacements made larger.
-#   gnuplot -c deformed_linkage.gp response.dat OUT SPEED [FIGURE [REMARK]]
 
-load ARG0[1 : strlen(ARG0) - strlen("deformed_linkage.gp")]."style.gp"
-table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
-
-load plots."drawing.gp"
-eval answer(table, "facts")
 call plots."linkage.gp" table
 share = 0.125
 want_positions = 8
@@ -28,7 +22,7 @@ do for [line=1:(tiles - 1)/tile_columns + 1] {
     line_y0[line] = lesser(y_min, lesser(O2_y, O4_y) - 1.2*size) - room
     line_y1[line] = y_max + room
 }
-headline = numbered(figure, sprintf("Elastic linkage over a turn, %s", at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf("Elastic linkage over a turn, %s", moment))
 note = magnified_text."; links drawn as cubics between the displacements and rotations of their ends"
 tile_limit = 400.0
 tile_least = 200
@@ -50,4 +44,3 @@ do for [k=1:tiles] {
     eval "plot ".deformed_linkage($poses[k], $moved[k])."NaN notitle"
 }
 unset multiplot
-eval close

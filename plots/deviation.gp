@@ -1,11 +1,5 @@
 # The paths of points at one speed, with rigid and with elastic links, deviations made larger, and the mechanism at one position.
-#   gnuplot -c deviation.gp response.dat OUT SPEED [FIGURE [REMARK]]
 
-load ARG0[1 : strlen(ARG0) - strlen("deviation.gp")]."style.gp"
-table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
-
-load plots."drawing.gp"
-eval answer(table, "facts")
 call plots."linkage.gp" table
 share = 0.125
 want_positions = 0
@@ -55,7 +49,7 @@ do for [k=0:360] { print sprintf("%.17g", first + k*(last - first)/360) }
 unset print
 load poses_as("rigid_paths")
 
-headline = numbered(figure, sprintf("Paths of points of the elastic linkage, %s", at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf("Paths of points of the elastic linkage, %s", moment))
 every_stick = int(ceil(positions_drawn/72.0))
 note = magnified_text."; thin lines lead there from the places with rigid links"
 remark = sprintf("the mechanism: with rigid links, at %s", at_crank(shown_angle)).(remark eq "" ? "" : "; ".remark)
@@ -96,4 +90,3 @@ do for [p=1:points] {
 }
 pale_shape(link) = shape(shown_row, link, half_width + 0.8*rim, "#8C8C8C").shape(shown_row, link, half_width, pale(link))
 eval "plot ".pale_shape(4).pale_shape(3).pale_shape(2).parts.mechanism_pins(shown_row)."NaN notitle"
-eval close

@@ -222,36 +222,31 @@ complete() {
     return 1
 }
 
-# sound FIGURE TABLE [ARGUMENT…]: there are numbers and names in the tables where the figure needs them; what else there is, is
+# sound FIGURE TABLE…: there are numbers and names in the tables where the figure needs them; what else there is, is
 # told at the end.
 sound() {
-    figure=$1
+    of_figure=$1
     wanted=" - $(echo "$needed" | tr -d +) "
     shift
-    for table in "$@"; do
-        table=${table##*/}
-        case $table in *.dat) [ -f "$table" ] || continue ;; *) continue ;; esac
-        [ -f "$new/wrong/$table" ] || ask wrong "$table" > "$new/wrong/$table"
+    for of_table in "$@"; do
+        of_table=${of_table##*/}
+        case $of_table in *.dat) [ -f "$of_table" ] || continue ;; *) continue ;; esac
+        [ -f "$new/wrong/$of_table" ] || ask wrong "$of_table" > "$new/wrong/$of_table"
         while read -r column fault; do
             case $wanted in
                 ' -  ' | *" $column "* | *" ${column%%[0-9]*} "*)
-                    printf '%s %s, %s\n' "$figure" "$table" "$fault" >> "$new/refused"
+                    printf '%s %s, %s\n' "$of_figure" "$of_table" "$fault" >> "$new/refused"
                     return 1 ;;
             esac
-        done < "$new/wrong/$table"
+        done < "$new/wrong/$of_table"
         wanted=' -  '               # of the first table some columns, of others all
     done
 }
 
-# add FIGURE SCRIPT TABLE [ARGUMENT…]: a script NAME.gp, or a kind of figure.gp.
+# add FIGURE KIND TABLE [ASKED [OTHERS]]: see figure.gp
 add() {
-    name=$1 script=$2 table_drawn=$3
-    shift 3
-    sound "$name" "$table_drawn" "$@" && complete "$name" "$table_drawn" || return 0
-    case $script in
-        *.gp) (IFS='|'; printf '%s\n' "$name|$script|$table_drawn${1+|$*}") ;;
-        *) printf '%s\n' "$name|figure.gp|$table_drawn|$script|${1-}|${2-}" ;;
-    esac >> "$new/plan"
+    sound "$1" "$3" ${5-} && complete "$1" "$3" || return 0
+    printf '%s\n' "$1|$2|$3|${4-}|${5-}" >> "$new/plan"
 }
 
 # have_modes: frequencies.dat has a frequency.
@@ -296,7 +291,7 @@ plan_mechanism() {
     if ask facts inertia.dat | grep -q col_moment; then
         if have mesh.dat; then mesh=mesh.dat; else can_place || return; fi
     fi
-    add mechanism mechanism.gp inertia.dat "$(telling_crank inertia.dat)" "$(greatest_speed inertia.dat)" "$mesh"
+    add mechanism mechanism inertia.dat "$(greatest_speed inertia.dat) $(telling_crank inertia.dat)" "$mesh"
 }
 
 # named: reads lines of numbers; behind each number the same for a file name, with six digits if they tell it from all others of
@@ -326,25 +321,23 @@ named() {
         }'
 }
 
-# plan_speeds FIGURE SCRIPT TABLE COLUMNS [ARGUMENT…]: one speed of the table each, unless all these columns (-: any) are zero.
+# plan_speeds FIGURE KIND TABLE COLUMNS [OTHERS]: one speed of the table each, unless all these columns (-: any) are zero.
 plan_speeds() {
-    of_speeds=$1 by_script=$2 of_table=$3 columns=$4
-    shift 4
-    complete "$of_speeds" "$of_table" || return 0
-    speeds=$(ask 'distinct speed' "$of_table")
+    complete "$1" "$3" || return 0
+    speeds=$(ask 'distinct speed' "$3")
     n=$(printf '%s\n' "$speeds" | wc -l)
     speed_names=$(printf '%s\n' "$speeds" | named)
-    [ "$columns" = - ] || speeds=$(ask "moving speed $(echo "$columns" | tr , ' ')" "$of_table")
+    [ "$4" = - ] || speeds=$(ask "moving speed $(echo "$4" | tr , ' ')" "$3")
     for speed in $speeds; do
-        of_speed=$of_speeds
-        [ "$n" -eq 1 ] || of_speed=${of_speeds}_speed_$(printf '%s\n' "$speed_names" | awk -v speed="$speed" '$1 == speed { print $2; exit }')
-        add "$of_speed" "$by_script" "$of_table" "$speed" "$@"
+        name=$1
+        [ "$n" -eq 1 ] || name=$1_speed_$(printf '%s\n' "$speed_names" | awk -v speed="$speed" '$1 == speed { print $2; exit }')
+        add "$name" "$2" "$3" "$speed" "${5-}"
     done
 }
 
 # plan_table: the figures of figures.txt.
 plan_table() {
-    grep -v '^#' "$PLOTS/figures.txt" | while read -r one script table linkages law by others columns needed; do
+    grep -v '^#' "$PLOTS/figures.txt" | while read -r figure kind table linkages law by others columns needed; do
         case $linkages in any | "$linkage") ;; *) continue ;; esac
         [ -z "$over" ] || [ "$law" = yes ] || continue
         have "$table" || continue
@@ -354,18 +347,13 @@ plan_table() {
             speeds) several "$table" speed || continue ;;
         esac
         [ "$columns" != needed ] || columns=$(echo "$needed" | tr ' ' ,)
-        set --
-        [ "$others" = - ] || for other_table in $(echo "$others" | tr , ' '); do
-            # Over time, where the first table is.
-            [ -z "$over" ] || other_table=$over$other_table
-            [ -f "$other_table" ] || other_table=
-            set -- "$@" "$other_table"
-        done
+        # Over time, where the first table is.
+        there=
+        for other in $(echo "$others" | tr , ' '); do [ ! -f "$over$other" ] || there="$there $over$other"; done
         [ ! -f "$over$table" ] || table=$over$table
-        case "$by $script" in
-            "table "*.gp | "speeds "*.gp) add "$one" "$script" "$table" "$@" ;;
-            "table "* | "speeds "*) add "$one" "$script" "$table" '' "$@" ;;
-            *) plan_speeds "$one" "$script" "$table" "$columns" "$@" ;;
+        case $by in
+            table | speeds) add "$figure" "$kind" "$table" '' "${there# }" ;;
+            *) plan_speeds "$figure" "$kind" "$table" "$columns" "${there# }" ;;
         esac
     done
 }
@@ -373,14 +361,14 @@ plan_table() {
 plan_frequencies() {
     [ $linkage != structure ] || return 0
     needed=+error
-    [ $errors = yes ] && ask facts frequencies.dat | grep -q 'col_error[1-9]' && plan_speeds errors errors.gp frequencies.dat -
+    [ $errors = yes ] && ask facts frequencies.dat | grep -q 'col_error[1-9]' && plan_speeds errors errors frequencies.dat -
     have_modes || return 0
     needed=+f
-    plan_speeds frequencies frequencies.gp frequencies.dat -
+    plan_speeds frequencies frequencies frequencies.dat -
     [ "$n" -gt 1 ] || return 0
     for mode in $(ask facts frequencies.dat | tr ' ' '\n' | sed -n 's/^col_f\([0-9][0-9]*\)$/\1/p'); do
         needed=f$mode
-        add "frequency_${mode}_by_speed" frequency_by_speed.gp frequencies.dat "$mode"
+        add "frequency_${mode}_by_speed" frequency_by_speed frequencies.dat '' "$mode"
     done
 }
 
@@ -390,9 +378,9 @@ plan_modes() {
     if [ $linkage != four_bar ] || grep -q '^\(SPRING\|DAMPER\) ' echo.deck 2> /dev/null; then
         can_place && settings="$settings; is_placed = 1"
     fi
-    [ -n "${animate-}" ] || [ "$(ask 'distinct mode crank' shapes.dat | wc -l)" -eq 1 ] || plan_speeds modes modes.gp shapes.dat -
+    [ -n "${animate-}" ] || [ "$(ask 'distinct mode crank' shapes.dat | wc -l)" -eq 1 ] || plan_speeds modes modes shapes.dat -
     ask 'distinct mode crank speed' shapes.dat | named | while read -r mode _ crank crank_name speed speed_name; do
-        add "mode_${mode}_crank_${crank_name}_speed_$speed_name" "${animate:-mode_shape.gp}" shapes.dat "$mode" "$crank" "$speed"
+        add "mode_${mode}_crank_${crank_name}_speed_$speed_name" "${animate:-mode_shape}" shapes.dat "$speed $crank $mode"
     done
 }
 
@@ -419,8 +407,8 @@ cycle_table() {
 plan_cycle() {
     needed=crank
     if [ -n "$cycle" ] && have "$cycle" && several "$cycle" && can_place; then
-        add linkage_positions linkage_positions.gp "$cycle"
-        [ "${format:-png}" = png ] && can_animate && add linkage animate_cycle.gp "$cycle"
+        add linkage_positions linkage_positions "$cycle"
+        [ "${format:-png}" = png ] && can_animate && add linkage animate_cycle "$cycle"
     fi
     needed=
     have sizing.dat && [ -z "$over" ] && have drive.dat && add drive_locus drive_locus sizing.dat '' drive.dat
@@ -429,7 +417,7 @@ plan_cycle() {
         needed='shaking_x shaking_y'
         shaking=shaking.dat
         [ ! -f balance.dat ] || shaking=balance.dat
-        have "$shaking" && plan_speeds shaking_force shaking_force.gp "$shaking" shaking_x,shaking_y
+        have "$shaking" && plan_speeds shaking_force shaking_force "$shaking" shaking_x,shaking_y
         needed=
         # Where only the shaking force is balanced the remarks of the table say all.
         [ ! -f balance.dat ] || ! grep -q '^# rms over a turn' balance.dat || plan_balance balance.dat
@@ -443,14 +431,14 @@ is_angle() { ask facts "$1" | grep -q "unit_crank = 'deg'"; }
 
 # Angles always; what stands still has no curve worth drawing.
 plan_kinematics() {
-    needed='theta3 theta4 transmission_angle'
-    add kinematics_angles kinematics.gp "${over}kinematics.dat" angles
-    needed='omega3 omega4'
-    [ -z "$(ask 'moving speed omega3 omega4' kinematics.dat)" ] ||
-        add kinematics_velocities kinematics.gp "${over}kinematics.dat" velocities
-    needed='alpha3 alpha4'
-    [ -z "$(ask 'moving speed alpha3 alpha4' kinematics.dat)" ] ||
-        add kinematics_accelerations kinematics.gp "${over}kinematics.dat" accelerations
+    for of in angles:theta velocities:omega accelerations:alpha; do
+        needed="${of#*:}3 ${of#*:}4"
+        case $of in
+            angles*) needed="$needed transmission_angle" ;;
+            *) [ -n "$(ask "moving speed $needed" kinematics.dat)" ] || continue ;;
+        esac
+        add "kinematics_${of%:*}" kinematics "${over}kinematics.dat" '' "${of%:*}"
+    done
     needed=
 }
 
@@ -492,19 +480,19 @@ plan_four_bar() {
         elif can_place; then
             needed='x y'
             # The path of a mass centre is that of even positions.
-            add coupler_curve coupler_curve.gp points.dat "$(telling_crank points.dat)" "$([ -n "$over" ] || echo "$balance")"
+            add coupler_curve coupler_curve points.dat "0 $(telling_crank points.dat)" "$([ -n "$over" ] || echo "$balance")"
             needed=crank
-            [ "${format:-png}" = png ] && can_animate && add linkage animate_linkage.gp points.dat points.dat
+            [ "${format:-png}" = png ] && can_animate && add linkage animate_linkage points.dat '' points.dat
             needed=
         fi
     fi
-    have linkage.dat && can_place && add special_positions special_positions.gp linkage.dat
+    have linkage.dat && can_place && add special_positions special_positions linkage.dat
     [ -z "$balance" ] || plan_balance "${over}balance.dat"
     [ -z "$over" ] || return
     if have reactions.dat; then
-        can_place && plan_forces forces.gp
+        can_place && plan_forces forces
         needed='shaking_x shaking_y'
-        plan_speeds shaking_force shaking_force.gp "${balance:-reactions.dat}" shaking_x,shaking_y
+        plan_speeds shaking_force shaking_force "${balance:-reactions.dat}" shaking_x,shaking_y
         needed=
     fi
 }
@@ -513,9 +501,9 @@ plan_four_bar() {
 plan_response() {
     if have response.dat && [ $linkage = four_bar ] && several response.dat && can_place; then
         needed='ux uy'
-        ask 'distinct point' response.dat | grep -qv : && plan_speeds deviation deviation.gp response.dat ux,uy
+        ask 'distinct point' response.dat | grep -qv : && plan_speeds deviation deviation response.dat ux,uy
         needed='ux uy rotation'
-        plan_speeds deformed_linkage deformed_linkage.gp response.dat ux,uy
+        plan_speeds deformed_linkage deformed_linkage response.dat ux,uy
     fi
     needed='axial_strain bending_strain stress'
     if have strains.dat && several strains.dat speed && [ "$(ask 'distinct speed' strains.dat | wc -l)" -le 8 ]; then
@@ -527,29 +515,29 @@ plan_response() {
     intervals=
     [ -f intervals.dat ] && intervals=intervals.dat
     if [ -f stability.dat ] && have stability.dat && several stability.dat speed; then
-        add growth growth.gp stability.dat "$intervals"
+        add growth growth stability.dat '' "$intervals"
     elif [ -n "$intervals" ] && ask facts intervals.dat | grep -q col_largest_growth && have intervals.dat; then
-        add growth growth.gp '' "$intervals"
+        add growth growth '' '' "$intervals"
     fi
 }
 
 # Modes swing; a linkage turns, and moves as its motor makes it.
 plan_animations() {
     can_animate || fail 'this gnuplot lacks the terminal pngcairo or gif, which animations need'
-    have shapes.dat && animate=animate_mode.gp plan_modes
+    have shapes.dat && animate=animate_mode plan_modes
     needed=crank
     if [ $linkage != four_bar ]; then
-        if [ -n "$cycle" ] && have "$cycle" && several "$cycle" && can_place; then add linkage animate_cycle.gp "$cycle"; fi
+        if [ -n "$cycle" ] && have "$cycle" && several "$cycle" && can_place; then add linkage animate_cycle "$cycle"; fi
         needed=
-        if have motion.dat && several motion.dat time && can_place; then add motion animate_linkage_motion.gp motion.dat; fi
+        if have motion.dat && several motion.dat time && can_place; then add motion animate_linkage_motion motion.dat; fi
         return
     fi
     if [ -z "$over" ] && have reactions.dat && [ "$(ask 'distinct crank' reactions.dat | wc -l)" -ge 12 ] && can_place; then
-        plan_forces animate_forces.gp
+        plan_forces animate_forces
     fi
     if have response.dat && [ "$(ask 'distinct crank' response.dat | wc -l)" -ge 12 ] && can_place; then
         needed='ux uy rotation'
-        plan_speeds deformed_linkage animate_response.gp response.dat ux,uy
+        plan_speeds deformed_linkage animate_response response.dat ux,uy
     fi
     points=
     have points.dat && points=points.dat
@@ -560,9 +548,9 @@ plan_animations() {
     fi
     can_place || return
     needed=crank
-    add linkage animate_linkage.gp kinematics.dat "$points"
+    add linkage animate_linkage kinematics.dat '' "$points"
     needed=
-    have motion.dat && add motion animate_motion.gp motion.dat "$points"
+    have motion.dat && add motion animate_motion motion.dat '' "$points"
 }
 
 # A deck with VARY: its rows belong to many mechanisms, and only frequencies and summaries are drawn, against what was varied.
@@ -614,7 +602,7 @@ if [ -n "$varied" ]; then
         fail "$outdir has nothing to draw: of a deck with VARY only frequencies.dat and summary.dat are drawn (REPORT frequencies, summary)"
     if have frequencies.dat && have_modes; then
         needed=+f
-        for parameter in $varied; do add "frequencies_by_$parameter" varied.gp frequencies.dat "$parameter"; done
+        for parameter in $varied; do add "frequencies_by_$parameter" varied frequencies.dat '' "$parameter"; done
         needed=
     fi
     if have summary.dat; then
@@ -624,7 +612,7 @@ elif [ $figures = animations ]; then
     plan_animations
 else
     [ $linkage = four_bar ] && [ -z "$over" ] && have inertia.dat && plan_mechanism
-    have mesh.dat && add finite_element_model finite_element_model.gp mesh.dat "$(telling_crank mesh.dat)"
+    have mesh.dat && add finite_element_model finite_element_model mesh.dat "0 $(telling_crank mesh.dat)"
     have frequencies.dat && plan_frequencies
     needed=
     have shapes.dat && plan_modes
@@ -670,7 +658,7 @@ DECK=${PWD##*/} awk -v new="$new" -v animated="${figures#figures}" "$quoting"'
         n = split($0, part, "|")
         name = part[1]
         if (!(name in file)) file[name] = name
-        call = "call " quoted(ENVIRON["PLOTS"] "/" part[2]) " " quoted(part[3]) " " quoted(new "/" file[name])
+        call = "call " quoted(ENVIRON["PLOTS"] "/figure.gp") " " quoted(part[3]) " " quoted(new "/" file[name]) " " quoted(part[2])
         for (i = 4; i <= n; i++) call = call " " quoted(part[i])
         run = FNR % 2
         print "set print " quoted(new "/at" run) "; print " ++calls[run] "; set print; " call, quoted(number[name]), quoted(remark[name]) > (new "/draw" run)

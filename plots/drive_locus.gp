@@ -38,5 +38,5 @@ do for [k=1:n_drives] {
 bar = 0.02*(high_rate - low_rate)
 rate_unit = unit_in(1, "rate")
 same_units = 1
-do for [k=2:panels] { if (unit_in(k, "rate") ne rate_unit) { same_units = 0 } }
+do for [k=2:declared] { if (unit_in(k, "rate") ne rate_unit) { same_units = 0 } }
 x_axis = "set xrange [low_rate:high_rate]; set xtics autofreq; set format x '%h'; set xlabel 'speed of the drive'.(same_units ? bracketed(typeset(rate_unit)) : '')"

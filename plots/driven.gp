@@ -5,6 +5,6 @@
 is_angle = unit_crank eq "deg"
 at_drive(position) = drive_subject.sprintf(" at %s%s", minus(sprintf("%.4g", position)), is_angle ? "°" : " ".unit_crank)
 positions = words(answer(table, "distinct crank"))
-if (!exists("cycle")) cycle = 360
+if (!exists("cycle")) { cycle = 360 }
 goes_round = is_angle && positions > 2 && (high_crank - low_crank)*positions/(positions - 1.0) >= cycle - 1e-6
 turning = goes_round && !exists("home_low")

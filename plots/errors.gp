@@ -1,11 +1,6 @@
 # The estimated relative errors of all frequencies of one speed against the crank angle.
-#   gnuplot -c errors.gp frequencies.dat OUT SPEED [FIGURE [REMARK]]
 # All speeds share one axis.
 
-load ARG0[1 : strlen(ARG0) - strlen("errors.gp")]."style.gp"
-table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
-
-eval answer(table, "facts")
 numbers = ""                                        # of the modes that the table has
 names = ""
 do for [name in columns] { if (is_numbered(name, "error")) { numbers = numbers." ".name[6:*]; names = names." ".name } }
@@ -24,7 +19,7 @@ if (top - bottom < 2) { top = bottom + 2 }
 pick(name) = same(field("speed"), speed) ? (field(name) > 0 ? field(name) : 10.0**bottom) : NaN
 
 positions = rows/words(answer(table, "distinct speed"))
-headline = numbered(figure, sprintf("Estimated errors of the natural frequencies %s, %s", against_position(unit_crank), at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf("Estimated errors of the natural frequencies %s, %s", against_position(unit_crank), moment))
 note = zeros ? "on the lower edge: no error" : ""
 
 lower = foot(lines_of_notes(note, remark))
@@ -46,4 +41,3 @@ plot for [k=1:modes] table using (field("crank")):(pick("error".mode(k))) with l
         using (field("crank")):(pick("error".mode(k))) with points lt mode(k) notitle, \
     for [k=1:listed(modes)] keyentry with linespoints lt mode(k) title sprintf("mode %d", mode(k)), \
     keyentry title unlisted(modes)
-eval close

@@ -1,17 +1,23 @@
-# Figures of curves over the rows of a table: panels below one another with one abscissa (panels.gp).
-#   gnuplot -c figure.gp TABLE OUT KIND [SPEED [OTHER [FIGURE [REMARK]]]]
-# KIND is one of the figures below, or the name of a script beside this one that says what is drawn; SPEED is that of the rows that are
-# drawn; OTHER a second table, or the name of the gauge or parameter that is drawn.
+# A figure of a table.
+#   gnuplot -c figure.gp TABLE OUT KIND [ASKED [OTHERS [FIGURE [REMARK]]]]
+# OUT has no extension. KIND is that of curves below, or the name of a script beside this one. ASKED is what of the table is drawn:
+# a speed, a crank angle, a mode, each if those before it are there; OTHERS are other tables or a name; FIGURE is a number for the title, REMARK a
+# line at the foot. Scripts find all this as variables, and may leave the panels of panels.gp to be drawn.
 
 load ARG0[1 : strlen(ARG0) - strlen("figure.gp")]."style.gp"
-table = ARG1; out = ARG2; kind = ARG3; speed = argument(4) eq "" ? 0 : argument(4) + 0; other = argument(5)
-figure = argument(6); remark = argument(7)
+table = ARG1; out = ARG2; kind = ARG3; asked = argument(4); other = argument(5); figure = argument(6); remark = argument(7)
+load plots."drawing.gp"
+asked_speed = words(asked) < 1 ? "all" : word(asked, 1)                # with all its digits
+speed = words(asked) < 1 ? 0 : word(asked, 1) + 0
+crank = words(asked) < 2 ? 0 : word(asked, 2) + 0
+mode = words(asked) < 3 ? 0 : word(asked, 3) + 0
+other_table(name) = strstrt(" ".other." ", " ".name." ") > 0 ? name : ""
 
-eval answer(table, "facts")
-moment = argument(4) eq "" ? "" : at_speed(speed, unit_speed)
+if (table ne "") { eval answer(table, "facts") }
+moment = asked eq "" || !exists("unit_speed") ? "" : at_speed(speed, unit_speed)
 note = ""
 source_of(k) = table
-picked = argument(4) eq "" ? "1" : "same(field('speed'),speed)"
+picked = asked eq "" ? "1" : "same(field('speed'),speed)"
 x = "field('crank')"
 x_axis = "eval crank_axis(low_crank, high_crank)"
 over(name, title) = sprintf("x = \"field('%s')\"; ", name).\
@@ -19,19 +25,19 @@ over(name, title) = sprintf("x = \"field('%s')\"; ", name).\
 
 # A panel: the title of its axis and its unit, its curves and their titles. Expressions in fields: of several columns, the size of a
 # vector, the same for all that rows_of has found.
-panels = 0
+declared = 0
 array axis_of[99]
 array unit_of[99]
 array curves_of[99]
 array titles_of[99]
-panel_of(name, unit, curves, titles) = (panels = panels + 1, axis_of[panels] = name, unit_of[panels] = unit, \
-    curves_of[panels] = curves, titles_of[panels] = titles, panels)
+panel_of(name, unit, curves, titles) = (declared = declared + 1, axis_of[declared] = name, unit_of[declared] = unit, \
+    curves_of[declared] = curves, titles_of[declared] = titles, declared)
 fields(names) = fields_from(1, names)
 fields_from(k, names) = k > words(names) ? "" : sprintf(" field('%s')", word(names, k)).fields_from(k + 1, names)
 size(vector) = sprintf("sqrt(field('%sx')**2+field('%sy')**2)", vector, vector)
 
 # A curve each for what a column names, `eval rows_of("link")`: names, with their beginnings in `shown`.
-rows_of(column_and_angle) = "load keep('rows', table, sprintf('rows %s ".column_and_angle."', argument(4) eq '' ? 'all' : argument(4))); ".\
+rows_of(column_and_angle) = "load keep('rows', table, 'rows '.asked_speed.' ".column_and_angle."'); ".\
     "names = names_in(table, '".word(column_and_angle, 1)."'); shown = short_names(names, 1); picked = '1'; ".\
     "source_of(k) = sprintf('$rows%d', k)"
 each(expression) = repeated(words(names), expression)
@@ -98,7 +104,7 @@ if (kind eq "reactions") {
 # Joints without a force of their own are left out; six in a panel at most, as many in all.
 if (kind eq "joint_forces") {
     eval rows_of("pin:link")
-    joints_found = words_in(table, "joints ".argument(4))
+    joints_found = words_in(table, "joints ".asked_speed)
     names = ""
     do for [joint in joints_found] { names = names." ".quoted_twice(word(joint, 2)) }
     headline = "Forces in the joints, ".moment
@@ -231,7 +237,69 @@ if (kind eq "validity") {
     added = panel_of("quadratic terms", "%", each("(strcol(col_quadratic)eq'-'?0:100*abs(field('quadratic')))"), shown)
     added = panel_of("distance |1 − ρ|", "", fields("distance"), "distance")
 }
-if (panels == 0) { load plots.kind.".gp" }
-headline = numbered(figure, headline)
-call plots."panels.gp"
+
+# Angles of a four-bar do not depend on the speed; their rates have a panel a link and a curve a speed.
+if (kind eq "kinematics") {
+    rate = other eq "angles" ? 1 : other eq "velocities" ? 2 : 3
+    stem = word("theta omega alpha", rate)
+    drawn = ""
+    do for [name in columns] { if (name[1:5] eq stem) { drawn = drawn." ".name } }
+    number(name) = int(name[6:*])
+    symbol(name) = name[1:5] ne stem ? "μ" : word("θ ω α", rate).\
+        (number(name) < 10 ? word("₁ ₂ ₃ ₄ ₅ ₆ ₇ ₈ ₉", number(name)) : sprintf("%d", number(name)))
+    names = answer(table, "distinct speed")
+    note = link_note
+    in_layers = 1
+    picked = "1"
+    if (other eq "angles") {
+        headline = "Link angles and transmission angle μ ".against.(by_law ? ", ".at_speed(0, "") : "")
+        drawn = drawn." transmission_angle"
+        load keep("rows", table, "rows ".word(names, 1)." speed".drawn)
+        source_of(k) = "$rows1"
+        shown = ""
+        do for [name in drawn] { shown = shown." ".symbol(name) }
+        added = panel_of("angle", unit_theta3, fields(drawn), shown)
+        height_of(n) = 875 - lower
+        marks_shifted = 0
+        least_entries = 1
+        before_panel(panel) = high_of[1] - low_of[1] > 100 ? sprintf("set ytics auto; set ytics %d", high_of[1] - low_of[1] > 600 ? 90 : 30) : ""
+    } else {
+        headline = (other eq "velocities" ? "Angular velocities " : "Angular accelerations ").against
+        load keep("rows", table, "rows all speed")
+        source_of(k) = sprintf("$rows%d", k)
+        shown = ""
+        do for [name in names] { shown = shown.sprintf(" '%s'", by_law ? at_speed(0, "") : sprintf("%.5g %s", name + 0, typeset(unit_speed))) }
+        do for [name in drawn] { added = panel_of(symbol(name), value("unit_".name), each(fields(name)[2:*]), shown) }
+        height_of(n) = 365
+        zeros_kept = 1
+        legend_once = 1
+        legend_title = by_law ? "" : "crank speed ω₂"
+        legend_entries = words(names) + 1
+    }
+}
+
+# All frequencies of one speed; all speeds share one axis.
+if (kind eq "frequencies") {
+    headline = sprintf("Natural frequencies %s, %s", against_position(unit_crank), moment)
+    drawn = ""
+    shown = ""
+    do for [name in columns] { if (is_numbered(name, "f")) { drawn = drawn." ".name; shown = shown." 'mode ".name[2:*]."'" } }
+    lowest = 1e300; highest = -1e300
+    do for [name in drawn] { lowest = lesser(lowest, value("low_".name)); highest = larger(highest, value("high_".name)) }
+    note = lowest < 0 ? divergence : ""
+    added = panel_of("natural frequency", value("unit_".word(drawn, 1)), fields(drawn), shown)
+    also_shown(panel) = lowest
+    also_reached(panel) = highest
+    pen_of(k) = int(word(drawn, k)[2:*])
+    height_of(n) = 875 - lower
+    in_layers = 1
+    least_entries = 1
+    legend_entries = words(drawn)
+}
+if (declared == 0) { load plots.kind.".gp" }
+if (declared > 0) {
+    panels = declared
+    headline = numbered(figure, headline)
+    call plots."panels.gp"
+}
 eval close

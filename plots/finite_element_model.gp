@@ -1,11 +1,5 @@
 # The finite element model at one position: nodes, elements (numbers in square boxes), pins and fixed pivots.
-#   gnuplot -c finite_element_model.gp mesh.dat OUT CRANK [FIGURE [REMARK]]
 
-load ARG0[1 : strlen(ARG0) - strlen("finite_element_model.gp")]."style.gp"
-table = ARG1; out = ARG2; crank = ARG3 + 0; figure = argument(4); remark = argument(5)
-
-load plots."drawing.gp"
-eval answer(table, "facts")
 load keep("nodes", table, sprintf("nodes %.12g", crank))       # columns: see tables.awk
 nodes = "$nodes"
 eval measure
@@ -38,4 +32,3 @@ plot nodes using 2:3 with lines lw 5 lc rgb "#505050" dt solid notitle, \
     nodes using 2:3 with points pt 7 ps 1.5 lc rgb ink notitle, \
     nodes using (shown_element($2 + $4*$9/2)):($3 + $5*$9/2):(sprintf(" %d ", $8)) with labels boxed font ",17" notitle, \
     nodes using (shown(0.07, beside_x(off))):(beside_y(off)):(sprintf("%d", $1)) with labels font ",19" notitle
-eval close

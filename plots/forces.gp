@@ -1,13 +1,7 @@
 # The forces at the pins and the shaking force over a turn, at one speed: the linkage at several positions, arrows to one scale.
-#   gnuplot -c forces.gp reactions.dat OUT SPEED [FIGURE [REMARK]]
 
-load ARG0[1 : strlen(ARG0) - strlen("forces.gp")]."style.gp"
-table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
-
-load plots."drawing.gp"
 call plots."linkage.gp" ""
-eval answer(table, "facts")
-load keep("forces", table, sprintf("forces %s 8", ARG3))           # columns: see tables.awk
+load keep("forces", table, sprintf("forces %s 8", asked_speed))           # columns: see tables.awk
 load plots."force_arrows.gp"
 set print angles
 do for [k=1:|$forces|] { print word($forces[k], 1) }
@@ -37,7 +31,7 @@ do for [k=1:tiles] {
         line_y1[line] = larger(line_y1[line], larger(imag(head), imag(tail)) + room)
     }
 }
-headline = numbered(figure, sprintf("Forces at the pins, %s", at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf("Forces at the pins, %s", moment))
 tile_limit = 400.0
 tile_least = 200
 caption_lines = 1
@@ -65,4 +59,3 @@ do for [k=1:tiles] {
     eval "plot ".pale_mechanism($places[k]).names_part."NaN notitle"
 }
 unset multiplot
-eval close

@@ -1,11 +1,7 @@
 # One frequency against the crank angle for every speed, and below it the change in percent against the reference speed.
-#   gnuplot -c frequency_by_speed.gp frequencies.dat OUT MODE [FIGURE [REMARK]]
 # The reference is speed 0 if the table has it, else its first speed.
 
-load ARG0[1 : strlen(ARG0) - strlen("frequency_by_speed.gp")]."style.gp"
-table = ARG1; out = ARG2; mode = ARG3 + 0; figure = argument(4); remark = argument(5)
-
-eval answer(table, "facts")
+mode = other + 0
 speeds = answer(table, "distinct speed")
 n = words(speeds)
 reference = word(speeds, 1) + 0
@@ -67,4 +63,3 @@ plot for [k=1:n] $changes using 2:(changed(k)) with lines lt k lw line_width(pos
     for [k=1:n] $changes using 2:(changed(k)) with points lt k pt 7 ps dot_size(positions), \
     for [k=1:n] $changes every mark_step(positions)::mark_first(k, n, positions) using 2:(changed(k)) with points lt k
 unset multiplot
-eval close

@@ -1,10 +1,7 @@
 # Growth of free vibrations in a turn against the speed of the crank: exponents at single speeds, and whole intervals.
-#   gnuplot -c growth.gp stability.dat|'' OUT [intervals.dat [FIGURE [REMARK]]]
 # An interval is drawn as the half ellipse through its edges and its largest growth, which growth follows nearly.
 
-load ARG0[1 : strlen(ARG0) - strlen("growth.gp")]."style.gp"
-table = ARG1; out = ARG2; intervals = argument(3); figure = argument(4); remark = argument(5)
-
+intervals = other_table("intervals.dat")
 read = table eq "" ? intervals : table
 has_points = table ne ""
 has_intervals = intervals ne "" && answer(intervals, "distinct from") ne "" ? 1 : 0
@@ -68,4 +65,3 @@ plot for [j=1:number] $ARCS index j - 1 using 1:2 with filledcurves y1=0 lw 1.5 
         with points pt mark(k) ps 1.0 lc rgb "#303030" notitle, \
     for [k=1:3] for [j=1:seen(k)] keyentry with boxes fs transparent solid 0.45 border fc rgb fill(k) title word(names, k), \
     for [k=1:modes] keyentry with points pt mark(k) ps 1.4 lc rgb "#303030" title name_of(k)
-eval close

@@ -1,10 +1,5 @@
 # The harmonics of shaking force, shaking moment and driving torque of one speed, as given and with counterweights.
-#   gnuplot -c harmonics.gp harmonics.dat OUT SPEED [FIGURE [REMARK]]
 
-load ARG0[1 : strlen(ARG0) - strlen("harmonics.gp")]."style.gp"
-table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
-
-eval answer(table, "facts")
 quantities = answer(table, "distinct quantity")
 linkages = answer(table, "distinct linkage")
 harmonics = 0
@@ -58,7 +53,7 @@ do for [k in kept] {
 turns = system("sed -n 's/^# *over a cycle of \\([0-9]*\\) turns of the crank.*/\\1/p' ".quoted(table))
 turns = turns eq "" ? "1" : turns
 headline = numbered(figure, sprintf("Harmonics over %s%s, %s", turns eq "1" ? "a turn" : turns." turns", of_cycle ? "" : " of the crank", \
-    at_speed(speed, unit_speed)))
+    moment))
 note = (of_cycle ? "amplitudes of harmonics k of the ".(turns eq "1" ? "turn" : "cycle") : "amplitudes of cos(k θ₂".(turns eq "1" ? "" : "/".turns)." + phase)").\
     "; the mean is not shown"
 gap = 35
@@ -90,4 +85,3 @@ do for [place=1:panels] {
     }
 }
 unset multiplot
-eval close

@@ -1,12 +1,7 @@
 # The largest strain of every link over a turn against the speed, on a logarithmic axis, with the critical speeds above it.
-#   gnuplot -c largest_strain.gp peaks.dat OUT [frequencies.dat [FIGURE [REMARK]]]
 # A speed is critical where a multiple of it, a harmonic, is the mean frequency of a mode over the turn: for the modes of
 # frequencies.dat, three at most.
 
-load ARG0[1 : strlen(ARG0) - strlen("largest_strain.gp")]."style.gp"
-table = ARG1; out = ARG2; frequencies = argument(3); figure = argument(4); remark = argument(5)
-
-eval answer(table, "facts")
 links = names_in(table, "link")
 n = words(links)
 shown_links = short_names(links, 1)
@@ -16,7 +11,7 @@ high = positive eq "" ? 1 : 1e6*(word(positive, 2) + 0.0)
 speeds = words(answer(table, "distinct speed"))
 
 modes = 0
-load keep("critical", frequencies eq "" ? "/dev/null" : frequencies, sprintf("critical %.12g %.12g", low_speed, high_speed))
+load keep("critical", other eq "" ? "/dev/null" : other, sprintf("critical %.12g %.12g", low_speed, high_speed))
 do for [k=1:|$critical|] { modes = lesser(3, larger(modes, word($critical[k], 1) + 0)) }
 headline = numbered(figure, "Largest strain over a turn against the speed of the crank")
 note = modes == 0 ? "" : "numbers above: harmonics n up to 20, at the speeds ω₂ = 2π f / n, f being the mean frequency of a mode; resonances lie near them"
@@ -68,4 +63,3 @@ plot for [k=1:n] of_link(k) using (field("speed")):(1e6*field("strain")) with li
     for [k=1:n] of_link(k) every mark_step(speeds)::mark_first(k, n, speeds) using (field("speed")):(1e6*field("strain")) \
         with points lt k notitle, \
     for [k=1:n] keyentry with linespoints lt k title word(shown_links, k)
-eval close

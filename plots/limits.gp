@@ -1,11 +1,6 @@
 # What a linkage that is no four-bar can do: ranges of its drive, swings of links, strokes of sliders, transmission and pressure
 # angles, as bars, with the positions of the drive at their ends.
-#   gnuplot -c limits.gp linkage.dat OUT [FIGURE [REMARK]]
 
-load ARG0[1 : strlen(ARG0) - strlen("limits.gp")]."style.gp"
-table = ARG1; out = ARG2; figure = argument(3); remark = argument(4)
-
-eval answer(table, "facts")
 load keep("limits", table, "limits")
 n_rows = |$limits|
 length_unit = answer(table, "distinct unit")." "
@@ -112,4 +107,3 @@ do for [p=1:4] {
     }
 }
 unset multiplot
-eval close

@@ -1,12 +1,6 @@
 # A linkage that is no four-bar at several positions of its cycle, one of them in full, with the paths of its pins and points.
-#   gnuplot -c linkage_positions.gp TABLE OUT [FIGURE [REMARK]]
 # TABLE has the columns speed and crank; the positions are between its first and its last.
 
-load ARG0[1 : strlen(ARG0) - strlen("linkage_positions.gp")]."style.gp"
-table = ARG1; out = ARG2; figure = argument(3); remark = argument(4)
-
-load plots."drawing.gp"
-eval answer(table, "facts")
 call plots."driven.gp"
 samples = turning && cycle > 360 ? 360*int(lesser(8, cycle/360)) : 360
 call plots."shapes.gp" samples 0.013
@@ -78,4 +72,3 @@ eval "plot ".parts."$names using (rim = rim_share($3, $4, $7, $8), $5 == 1 ? uns
     "((1 - rim)*($7 - $3)/pixel):((1 - rim)*($8 - $4)/pixel) ".\
     "with vectors nohead lw 1 dt solid lc rgb '#808080' notitle, ".\
     "$names using (unscaled_x($1)):(unscaled_y($2)):(strcol(6)) with labels noenhanced font point_size(17) notitle"
-eval close

@@ -1,20 +1,15 @@
 # The mechanism at one position with its numbered lumped masses and their inertia forces.
-#   gnuplot -c mechanism.gp inertia.dat OUT CRANK SPEED [mesh.dat [FIGURE [REMARK]]]
 # With distributed inertia the table knows the links' mass centres only; their ends are then taken from mesh.dat or, without it,
 # the linkage is placed by the program.
 
-load ARG0[1 : strlen(ARG0) - strlen("mechanism.gp")]."style.gp"
-table = ARG1; out = ARG2; crank = ARG3 + 0; speed = ARG4 + 0; mesh = argument(5); figure = argument(6); remark = argument(7)
 share = 0.25        # longest arrow drawn, as a share of the mechanism's larger side
 
-load plots."drawing.gp"
-eval answer(table, "facts")
 load keep("masses", table, sprintf("masses %.12g %.12g", crank, speed))      # columns: see tables.awk
 load keep("arrows", table, sprintf("arrows %.12g %.12g %g", crank, speed, share))
 distributed = strstrt(" ".columns." ", " moment ") > 0
 nodes = distributed ? "$nodes" : "$masses"
-if (mesh ne "") { load keep("nodes", mesh, sprintf("nodes %.12g", crank)) }
-if (distributed && mesh eq "") {
+if (other ne "") { load keep("nodes", other, sprintf("nodes %.12g", crank)) }
+if (distributed && other eq "") {
     call plots."linkage.gp" ""
     set print angles
     print sprintf("%.17g", crank)
@@ -46,7 +41,7 @@ y0 = lesser(lesser(y_min - size, tail_min_y), head_min_y) - room
 y1 = larger(larger(y_max, tail_max_y), head_max_y) + room
 
 headline = numbered(figure, sprintf("Mechanism with %s, at %s", distributed ? "mass centres" : "lumped masses", at_crank(crank)))
-note = longest_max == 0 ? "" : sprintf("arrows: inertia forces −m a at %s; at one place, their sum", at_speed(speed, unit_speed))
+note = longest_max == 0 ? "" : sprintf("arrows: inertia forces −m a at %s; at one place, their sum", moment)
 moments = ""
 if (distributed && longest_max > 0) {
     stats table using (abs(pick(field("moment")))) name "moment" nooutput
@@ -108,4 +103,3 @@ plot nodes using 2:3 with lines lw 5 lc rgb "#707070" dt solid notitle, \
     $masses using 2:3 with points pt 7 ps 1.9 lc rgb ink notitle, \
     @pinmass_part \
     $numbers using (unscaled_x($1)):(unscaled_y($2)):(strcol(6)) with labels enhanced font point_size(19) notitle
-eval close

@@ -1,18 +1,12 @@
 # The contact sheet of mode shapes at one speed: a line a mode, a column a crank angle.
-#   gnuplot -c modes.gp shapes.dat OUT SPEED [FIGURE [REMARK]]
 # Eight crank angles at most, evenly chosen, and twelve modes.
 
-load ARG0[1 : strlen(ARG0) - strlen("modes.gp")]."style.gp"
-table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
-
-load plots."drawing.gp"
-eval answer(table, "facts")
 load plots."mode_size.gp"
 longest_side = side_of_modes("all")
 share_drawn = share*longest_side/high_s             # of the longest link
 shapes_file = out.".shapes"
-load keep("found", table, sprintf("shapes_found %s", ARG3))        # columns: see tables.awk
-system(ask(table, sprintf("shapes %s %.9g", ARG3, share_drawn))." > ".quoted(shapes_file))
+load keep("found", table, sprintf("shapes_found %s", asked_speed))        # columns: see tables.awk
+system(ask(table, sprintf("shapes %s %.9g", asked_speed, share_drawn))." > ".quoted(shapes_file))
 load keep("reach_of_modes", table, sprintf("reach all %.9g", share_drawn))
 stats $reach_of_modes using 1 name "across" nooutput
 stats $reach_of_modes using 2 name "up" nooutput
@@ -66,7 +60,7 @@ caption_lines = gridded ? 1 : 2
 lead_room = gridded ? 50 : 0
 head_of_columns = gridded ? 40 : 10
 
-headline = numbered(figure, sprintf("Mode shapes, %s", at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf("Mode shapes, %s", moment))
 note = sprintf("largest displacement of a mode drawn as %g %% of %s", 100*share, compared)
 if (drawn_modes < words(all_modes) || drawn_cranks < words(all_cranks)) {
     note = note.sprintf("; %d of %d modes, %d of %d crank angles", drawn_modes, words(all_modes), drawn_cranks, words(all_cranks))
@@ -120,4 +114,3 @@ do for [k=1:tiles] {
         shapes_file index number using (pin($1 + $3)):($2 + $4) with points pt 6 ps 1.3 lw 2 lc rgb ink notitle
 }
 unset multiplot
-eval close

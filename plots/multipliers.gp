@@ -1,12 +1,7 @@
 # The multipliers of a turn at all speeds of stability.dat, on and beside the unit circle.
-#   gnuplot -c multipliers.gp stability.dat OUT [FIGURE [REMARK]]
 # A multiplier e^(growth + 2 pi i turns) is drawn with its conjugate, its distance from the circle ten times as large; without
 # damping those that leave the circle have their inverses. What fades or grows too far is drawn at the rim.
 
-load ARG0[1 : strlen(ARG0) - strlen("multipliers.gp")]."style.gp"
-table = ARG1; out = ARG2; figure = argument(3); remark = argument(4)
-
-eval answer(table, "facts")
 modes = int(high_mode)
 farthest = larger(abs(low_growth), abs(high_growth))
 magnified = farthest < 0.07 ? 10 : farthest < 0.7 ? 1 : 0.2
@@ -65,4 +60,3 @@ plot for [k=1:modes] for [side=-1:1:2] of_mode(k) using \
         (leaves(field("growth"), field("error")) ? radius(field("growth"))*cos(2*pi*field("turns")) : NaN):(side*radius(field("growth"))*sin(2*pi*field("turns"))) \
         with points pt filled(k) ps 1.5 lc rgb pen(k) notitle, \
     for [k=1:modes] keyentry with points pt mark(k) ps 1.5 lw 2 lc rgb pen(k) title sprintf("mode %d", k)
-eval close

@@ -5,7 +5,6 @@
 # curve k of every panel. Panels of nothing but zeros are left out, unless all are; those with a logarithmic axis, on which zero and
 # what is below have no place (is_logarithmic of style.gp), are left out if nothing is above zero.
 
-full_height = 330
 panel_gap = 35
 lower = foot(lines_of_notes(note, remark))
 array low_of[panels]
@@ -32,15 +31,14 @@ do for [panel=1:panels] {
     }
     low_of[panel] = low
     high_of[panel] = high
-    if (low != 0 || high != 0) { kept = kept." ".panel; longest = larger(longest, widest(titles_of[panel], 20)) }
+    if (low != 0 || high != 0 || zeros_kept) { kept = kept." ".panel; longest = larger(longest, widest(titles_of[panel], 20)) }
 }
 if (kept eq "") { do for [panel=1:panels] { kept = kept." ".panel; longest = larger(longest, widest(titles_of[panel], 20)) } }
 n_kept = words(kept)
 title_of(panel) = is_logarithmic(panel) ? axis_of[panel].bracketed(typeset(unit_of[panel])) \
     : value_title(axis_of[panel], unit_of[panel], low_of[panel], high_of[panel])
 
-# A page of one or two panels has higher ones.
-full_height = n_kept == 1 ? 700 : n_kept == 2 ? 400 : full_height
+full_height = height_of(n_kept)
 tick_room = 0
 lines = 1
 do for [k=1:n_kept] {
@@ -49,20 +47,22 @@ do for [k=1:n_kept] {
         : value_width(low_of[panel], high_of[panel], full_height))
     lines = larger(lines, planned_lines(title_of(panel), full_height))
 }
-eval legend_page(125 + lower + n_kept*(full_height + panel_gap) - panel_gap, 1, longest, tick_room, lines)
+eval legend_page(125 + lower + n_kept*(full_height + panel_gap) - panel_gap, legend_entries, longest, tick_room, lines)
 panel_height = (@panel_room - lower + panel_gap)/n_kept - panel_gap
 eval heading
+entry_of(k, panel) = sprintf(", keyentry with linespoints lt %d title word(titles_of[%d], %d)", pen_of(k), panel, k)
+entries_from(k, n, panel) = k > listed(n) ? (n > listed(n) ? ", keyentry title unlisted(".n.")" : "") : entry_of(k, panel).entries_from(k + 1, n, panel)
 set multiplot
 if (legend_once) {                                   # beside all panels, which has room for more words than one of them
     panel = int(word(kept, 1))
-    keys = ""
-    do for [k=1:words(curves_of[panel])] { keys = keys.sprintf(", keyentry with linespoints lt %d title word(titles_of[%d], %d)", k, panel, k) }
+    if (legend_title ne "") { set key title legend_title left }
     set bmargin at screen up(lower)
     set tmargin at screen up(lower + n_kept*(panel_height + panel_gap) - panel_gap)
     set key at screen across(key_left), up(lower + n_kept*(panel_height + panel_gap) - panel_gap)
     unset border
     unset tics
-    eval "plot [0:1][0:1] NaN notitle".keys
+    eval "plot [0:1][0:1] NaN notitle".entries_from(1, words(curves_of[panel]), panel)
+    unset key
     set border 31 lw 1.5
     set xtics out nomirror
     set ytics out nomirror
@@ -72,18 +72,19 @@ do for [place=1:n_kept] {
     base = lower + (n_kept - place)*(panel_height + panel_gap)
     set bmargin at screen up(base)
     set tmargin at screen up(base + panel_height)
-    set key at screen across(key_left), up(base + panel_height)
+    if (!legend_once) { set key at screen across(key_left), up(base + panel_height) }
     if (place > 1 || legend_once) { do for [label=901:904] { unset label label } }
     n = words(curves_of[panel])
     parts = ""
-    keys = ""
+    dots = ""
+    marks = ""
     do for [k=1:n] {
         of_curve = sprintf("source_of(%d) using (%s):(%s ? %s : NaN)", k, x, picked, word(curves_of[panel], k))
-        parts = parts.sprintf("%s with lines lt %d lw %g notitle, %s with points lt %d pt 7 ps %g notitle, ", of_curve, k, \
-            line_width(drawn_rows), of_curve, k, dot_size(drawn_rows))
-        parts = parts.sprintf("source_of(%d) every %d::%d using (%s):(%s ? %s : NaN) with points lt %d notitle, ", \
-            k, mark_step(drawn_rows), mark_first(k, n, drawn_rows), x, picked, word(curves_of[panel], k), k)
-        if (n > 1 && !legend_once) { keys = keys.sprintf(", keyentry with linespoints lt %d title word(titles_of[%d], %d)", k, panel, k) }
+        parts = parts.sprintf("%s with lines lt %d lw %g notitle, ", of_curve, pen_of(k), line_width(drawn_rows))
+        dots = dots.sprintf("%s with points lt %d pt 7 ps %g notitle, ", of_curve, pen_of(k), dot_size(drawn_rows))
+        marks = marks.sprintf("source_of(%d) every %d::%d using (%s):(%s ? %s : NaN) with points lt %d notitle, ", \
+            k, mark_step(drawn_rows), marks_shifted*mark_first(k, n, drawn_rows), x, picked, word(curves_of[panel], k), pen_of(k))
+        if (!in_layers || k == n) { parts = parts.dots.marks; dots = ""; marks = "" }
     }
     bare = place < n_kept
     eval x_axis
@@ -95,6 +96,6 @@ do for [place=1:n_kept] {
     }
     eval before_panel(panel)
     eval axis_title(title_of(panel), base, panel_height)
-    eval "plot ".parts_below(panel).parts.parts_above(panel)."NaN notitle".keys.keys_of(panel)
+    eval "plot ".parts_below(panel).parts.parts_above(panel)."NaN notitle".(legend_once || n < least_entries ? "" : entries_from(1, n, panel)).keys_of(panel)
 }
 unset multiplot

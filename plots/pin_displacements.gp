@@ -1,14 +1,8 @@
 # The displacements of pins at one speed, one component against the other, over a turn.
-#   gnuplot -c pin_displacements.gp response.dat OUT SPEED [FIGURE [REMARK]]
 
-load ARG0[1 : strlen(ARG0) - strlen("pin_displacements.gp")]."style.gp"
-table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
-
-load plots."drawing.gp"
-eval answer(table, "facts")
 pins = displaced_pins(table)
 n = words(pins)
-moved_of(k) = rows_if(table, is_named("point", word(pins, k))." && ".is_at("speed", ARG3))
+moved_of(k) = rows_if(table, is_named("point", word(pins, k))." && ".is_at("speed", asked_speed))
 x_min = 0.0; x_max = 0.0; y_min = 0.0; y_max = 0.0
 do for [k=1:n] {
     stats moved_of(k) using (x_min = lesser(x_min, field("ux")), x_max = larger(x_max, field("ux")), \
@@ -20,7 +14,7 @@ x0 = x_min - room
 x1 = x_max + room
 y0 = y_min - room
 y1 = y_max + room
-headline = numbered(figure, sprintf("Displacements of pins of the elastic linkage, %s", at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf("Displacements of pins of the elastic linkage, %s", moment))
 note = "elastic less rigid linkage, in global axes, over a turn of the crank; circle: at the first crank angle of the table"
 load plots."legend.gp"
 do for [k=1:n] { eval entry_line(inside(pin_of(word(pins, k)), name_length), sprintf("lt %d", k)) }
@@ -35,4 +29,3 @@ positions = rows/words(answer(table, "distinct speed"))/words(names_in(table, "p
 plot for [k=1:n] moved_of(k) using (field("ux")):(field("uy")) with lines lt k lw line_width(positions), \
     for [k=1:n] moved_of(k) using (field("ux")):(field("uy")) with points lt k pt 7 ps dot_size(positions), \
     for [k=1:n] moved_of(k) using (field("ux")):(field("uy")) every ::0::0 with points lt k pt 6 ps 2.5 lw 3
-eval close

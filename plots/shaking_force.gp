@@ -1,16 +1,10 @@
 # A polar plot of the shaking force of one speed: as given and, from balance.dat, with counterweights; from frame.dat, beside the
 # force on the frame.
-#   gnuplot -c shaking_force.gp balance.dat|reactions.dat|shaking.dat|frame.dat OUT SPEED [FIGURE [REMARK]]
 
-load ARG0[1 : strlen(ARG0) - strlen("shaking_force.gp")]."style.gp"
-table = ARG1; out = ARG2; speed = ARG3 + 0; figure = argument(4); remark = argument(5)
-
-load plots."drawing.gp"
-eval answer(table, "facts")
 of_frame = strstrt(" ".columns." ", " frame_x ") > 0
 balanced = of_frame || strstrt(" ".columns." ", " balanced_x ") > 0
-load keep("given", table, "path ".ARG3." shaking_x shaking_y")          # columns: see tables.awk
-if (balanced) { load keep("balanced", table, "path ".ARG3.(of_frame ? " frame_x frame_y" : " balanced_x balanced_y")) }
+load keep("given", table, "path ".asked_speed." shaking_x shaking_y")          # columns: see tables.awk
+if (balanced) { load keep("balanced", table, "path ".asked_speed.(of_frame ? " frame_x frame_y" : " balanced_x balanced_y")) }
 stats $given using (sqrt($1**2 + $2**2)) name "given" nooutput
 greatest = given_max
 if (balanced) {
@@ -20,7 +14,7 @@ if (balanced) {
 ring = nice((greatest > 0 ? greatest : 1.0)/5)
 radius = ring*ceil((greatest > 0 ? greatest : 1.0)/ring - 0.001)
 
-headline = numbered(figure, sprintf(of_frame ? "Force on the frame, %s" : "Shaking force, %s", at_speed(speed, unit_speed)))
+headline = numbered(figure, sprintf(of_frame ? "Force on the frame, %s" : "Shaking force, %s", moment))
 note = (of_frame ? "resultants" : "resultant of the inertia forces").", from the centre to the curve; numbers: ".(of_cycle ? drive_quantity(unit_crank) : "crank angle θ₂")
 load plots."legend.gp"
 given_style = "lt 1 lw 4 dt solid"
@@ -122,4 +116,3 @@ eval "plot $numbers using (is_angle(strcol(6)) ? NaN : unscaled_x($1)):(unscaled
     "with vectors nohead lw 1 dt solid lc rgb '#808080' notitle, ".\
     "$numbers using (is_angle(strcol(6)) ? unscaled_x($1) : NaN):(unscaled_y($2)):(strcol(6)) ".\
     "with labels noenhanced font point_size(16) notitle".balanced_part
-eval close

@@ -1,12 +1,6 @@
 # The special positions of linkage.dat side by side, those of a branch in lines of their own.
-#   gnuplot -c special_positions.gp linkage.dat OUT [FIGURE [REMARK]]
 
-load ARG0[1 : strlen(ARG0) - strlen("special_positions.gp")]."style.gp"
-table = ARG1; out = ARG2; figure = argument(3); remark = argument(4)
-
-load plots."drawing.gp"
 call plots."linkage.gp" ""
-eval answer(table, "facts")
 rows_found = answer(table, "distinct branch event =crank transmission_angle")
 n = words(rows_found)/4
 
@@ -98,4 +92,3 @@ do for [k=1:tiles] {
     eval "plot ".mechanism($places[place])."NaN notitle"
 }
 unset multiplot
-eval close

@@ -301,7 +301,18 @@ before_panel(panel) = ""
 parts_below(panel) = ""
 parts_above(panel) = ""
 keys_of(panel) = ""
-legend_once = 0                                     # all panels have the same curves, and one legend beside them
+# Of all: the height of one of so many, the line of a curve, whether panels of nothing but zeros are kept; whether marks are shifted from curve to
+# curve, and lie, like the dots, above all lines; their legends: the least number of entries that make one, or one beside all panels, which have
+# the same curves, with a title; how many entries make the page wider.
+height_of(n) = n == 1 ? 700 : n == 2 ? 400 : 330
+pen_of(k) = k
+zeros_kept = 0
+marks_shifted = 1
+in_layers = 0
+least_entries = 2
+legend_once = 0
+legend_title = ""
+legend_entries = 1
 
 # ---- Curves against the crank angle ---------------------------------------------------------------------------
 # The legend stands in columns of its own at the right, so it never meets a curve; what is beyond three columns is counted.

@@ -33,9 +33,9 @@ array quantities_of[99]
 with_blanks(text) = strstrt(text, "_") == 0 ? text : text[1 : strstrt(text, "_") - 1]." ".with_blanks(text[strstrt(text, "_") + 1 : *])
 mean_of(k, quantities) = k > words(quantities) ? "" : " ".word(quantities, k)."_mean".mean_of(k + 1, quantities)
 panel_of_means(name, quantities, titles) = panel_of(name, value("unit_".word(quantities, 1)."_mean"), fields(mean_of(1, quantities)), titles)
-if (words(frequencies) > 0) { quantities_of[panels + 1] = frequencies; added = panel_of_means("natural frequency", frequencies, frequencies) }
-if (words(ratios) > 0) { quantities_of[panels + 1] = ratios; added = panel_of_means("damping ratio", ratios, ratios) }
-do for [name in others] { quantities_of[panels + 1] = name; added = panel_of_means(with_blanks(name), name, "mean") }
+if (words(frequencies) > 0) { quantities_of[declared + 1] = frequencies; added = panel_of_means("natural frequency", frequencies, frequencies) }
+if (words(ratios) > 0) { quantities_of[declared + 1] = ratios; added = panel_of_means("damping ratio", ratios, ratios) }
+do for [name in others] { quantities_of[declared + 1] = name; added = panel_of_means(with_blanks(name), name, "mean") }
 
 source_of(k) = "< awk -v want=".quoted("rows_by ".other)." -f ".quoted(plots."quoted.awk")." -f ".quoted(plots."tables.awk")." < ".quoted(table)
 x = sprintf("column(%d)", place)

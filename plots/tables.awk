@@ -4,7 +4,8 @@
 #   want="distinct crank speed"    the distinct values of these columns, a line each, in the table's order; =crank with all digits, pin:link
 #                                  as A:crank
 #   want="moving speed torque O2x" those of this column, at which some of the columns behind it is not zero throughout
-#   want="rows 20 link theta"      the rows at speed 20, or at `all`, a datablock for every link in the table's order, name1, name2 …; an empty line where rows have failed; angles theta go on beyond 180 degrees
+#   want="rows 20 link theta"      the rows at speed 20, or at `all`, a datablock for every link in the table's order, name1, name2 …; an empty line where rows have failed; angles theta and others behind it go on beyond
+#                                  180 degrees
 #   want="range f1 f2"             the least and the greatest value found in these columns
 #   want="positive error1 error2"  the same of values above zero; nothing if there are none
 #   want="change f1 0"             speed, crank and f1's change in percent against the rows of speed 0
@@ -138,8 +139,10 @@ asked[1] == "rows" {
     if (!(key in place)) { place[key] = ++places; rows_of[places] = "" }
     if (asked[2] == "all" || same($at["speed"], asked[2])) {
         if (gaps != gaps_before[key] && rows_of[place[key]] != "") rows_of[place[key]] = rows_of[place[key]] "\n"
-        if (asked[4] in at && gaps == gaps_before[key] && key in before) $at[asked[4]] = turned_on($at[asked[4]], before[key])
-        if (asked[4] in at) before[key] = $at[asked[4]]
+        for (i = 4; i <= n_asked; i++) {
+            if ((key, i) in before) $at[asked[i]] = turned_on($at[asked[i]], before[key, i])
+            before[key, i] = $at[asked[i]]
+        }
         gaps_before[key] = gaps
         rows_of[place[key]] = rows_of[place[key]] $0 "\n"
     }

@@ -105,7 +105,7 @@ response_animation() {
 bent_links() {
   cat >"$scratch/bent.gp" <<'END_OF_SCRIPT'
 figure_format = 'svg'
-call ARG1.'/deformed_linkage.gp' 'response.dat' ARG2 '20'
+call ARG1.'/figure.gp' 'response.dat' ARG2 'deformed_linkage' '20'
 step = 1e-5
 do for [k=1:positions_drawn] {
     do for [link=2:4] {
@@ -560,12 +560,12 @@ one_fails() {
   rm -rf "$scratch/share"
   { sed '/^END/d' inputs/kinematics.deck && echo "REPORT pins"; } >"$scratch/partly.deck"
   cp -R plots "$scratch/share" && run 0 --quiet --out "$scratch/out" "$scratch/partly.deck" || return 1
-  for script in kinematics pin_motion; do
-    cp plots/*.gp "$scratch/share" && sed -i '1i plot no_such_thing' "$scratch/share/$script.gp" || return 1
+  for kind in kinematics pin_motion; do
+    sed "/^if (kind eq \"$kind\")/a plot no_such_thing" plots/figure.gp >"$scratch/share/figure.gp"
     FLEXMECH=$program timeout "$longest" sh "$scratch/share/draw_figures.sh" "$scratch/out/partly" >"$scratch/stdout" 2>"$scratch/stderr"
     [ $? -eq 1 ] || { echo "status is not 1"; return 1; }
-    says "not drawn" && says "/figures/$script" && ! grep -q "/$script" "$scratch/stdout" || return 1
-    case $script in
+    says "not drawn" && says "/figures/$kind" && ! grep -q "/$kind" "$scratch/stdout" || return 1
+    case $kind in
       kinematics) grep -q /pin_motion.png "$scratch/stdout" ;;
       *) [ "$(grep -c /kinematics_ "$scratch/stdout")" -eq 3 ] ;;
     esac || { echo "the others are not drawn:"; cat "$scratch/stdout"; return 1; }
