@@ -23,6 +23,6 @@ unset print
 load poses_as("poses")
 
 note = ""
-caption(row) = "θ₂ = ".sprintf("%d°", floor(word(row, 1)) % 360)
+caption(n) = "θ₂ = ".sprintf("%d°", floor(word($poses[n], 1)) % 360)
 tail = 24
 call plots."animate_poses.gp" 4 pictures 1

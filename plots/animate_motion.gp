@@ -22,6 +22,6 @@ load poses_as("poses")
 eval pivots
 
 note = slower == 1 ? "" : sprintf("slowed down %g times", slower)
-caption(row) = sprintf("t = %.2f %s,  ω₂ = %.1f %s", seconds[now], unit_time, rates[now], unit_omega2)
+caption(n) = sprintf("t = %.2f %s,  ω₂ = %.1f %s", seconds[n], unit_time, rates[n], unit_omega2)
 tail = 6
 call plots."animate_poses.gp" delay pictures every_row

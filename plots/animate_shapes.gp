@@ -5,11 +5,6 @@
 room = 0.05*span
 x0 = x_min - room; x1 = x_max + room; y0 = y_min - room; y1 = y_max + room
 pixel = (x1 - x0)/(y1 - y0) > 1.4 ? 1080/(x1 - x0) : 770/(y1 - y0)
-headline = cut(deck_title, 60)
-deck_title = ""
-remark = ""
-wide = pixel*(x1 - x0) > 760 ? pixel*(x1 - x0) + 40 : 800
-foot_height = note eq "" ? 60 : 100
 
 # A tail that grows thinner: of the last rows before this position.
 tails(n, k) = k > paths ? "" : (path_ink[k] eq "" ? "" : tail_part(n, k, 1).tail_part(n, k, 2).tail_part(n, k, 3)).tails(n, k + 1)
@@ -21,26 +16,9 @@ do for [k=1:paths] {
     all_paths = all_paths.path_columns(k).sprintf(" with lines lw %g dt solid lc rgb '%s' notitle, ", path_ink[k] eq "" ? 1.5 : 3, \
         path_ink[k] eq "" ? "#C8C8C8" : "#AAAAAA")
 }
-do for [picture=1:pictures] {
-    eval open_page(wide, pixel*(y1 - y0) + 90 + foot_height)
-    if (picture == 1) {
-        eval heading
-        unset border
-        unset tics
-        unset grid
-        unset key
-        set size ratio -1
-        set xrange [x0:x1]
-        set yrange [y0:y1]
-        set tmargin at screen down(80)
-        set bmargin at screen up(foot_height)
-        set lmargin at screen 0.5 - across(0.5*pixel*(x1 - x0))
-        set rmargin at screen 0.5 + across(0.5*pixel*(x1 - x0))
-    }
-    now = pose_of(picture)
-    set output sprintf("%s_%03d", out, picture)
-    set label 905 caption(now) at screen 0.5, up(foot_height - 30) center noenhanced font ",20"
-    eval "plot ".fixed_parts.all_paths.bodies(now).(tail_shown(picture) ? tails(now, 1) : "").pins_of(now)."NaN notitle"
-}
-unset output
-call plots."gif.gp" out pictures delay
+on_page = ""
+caption_of(picture) = caption(pose_of(picture))
+before_picture(picture) = ""
+parts_of(picture) = fixed_parts.all_paths.bodies(pose_of(picture)).(tail_shown(picture) ? tails(pose_of(picture), 1) : "").\
+    pins_of(pose_of(picture))
+load plots."animation.gp"

@@ -56,9 +56,7 @@ do for [p=1:points] { eval entry_line(short_name(point_names, p), path_style(p))
 if (has_masses) { eval entry_line("mass centre of the mechanism", mass_style) }
 length_unit = unit_x
 load plots."frame.gp"
-call plots."ground.gp" sprintf("%.12g", O2_x) sprintf("%.12g", O2_y) size 1 "pinned"
-call plots."ground.gp" sprintf("%.12g", O4_x) sprintf("%.12g", O4_y) size 11 "pinned"
-eval ground_hooks(size)
+eval fixed_pivots(size).ground_hooks(size)
 
 # Numbers keep clear of the paths, of pins and of each other. Two dots at one place, on a path that is gone to and fro, have one.
 set print places

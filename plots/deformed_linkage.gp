@@ -34,8 +34,7 @@ eval entry_line("rigid links", rigid_look)
 eval entry_line("elastic links", bent_look)
 do for [p=1:points] { eval entry_point(short_name(point_names, p), sprintf("pt 7 ps 2 lc rgb '%s'", point_ink(p))) }
 load plots."tiles.gp"
-call plots."ground.gp" sprintf("%.12g", O2_x) sprintf("%.12g", O2_y) size 1 "pinned"
-call plots."ground.gp" sprintf("%.12g", O4_x) sprintf("%.12g", O4_y) size 11 "pinned"
+eval fixed_pivots(size)
 set multiplot
 do for [k=1:tiles] {
     if (k > 1) { eval clear_page }

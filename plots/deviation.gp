@@ -61,8 +61,7 @@ do for [p=1:points] {
 }
 length_unit = unit_ux
 load plots."frame.gp"
-call plots."ground.gp" sprintf("%.12g", O2_x) sprintf("%.12g", O2_y) size 1 "pinned"
-call plots."ground.gp" sprintf("%.12g", O4_x) sprintf("%.12g", O4_y) size 11 "pinned"
+eval fixed_pivots(size)
 
 # The axes of thin lines: from the places with rigid links to those with elastic ones.
 set print $sticks

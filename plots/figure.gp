@@ -16,6 +16,7 @@ other_table(name) = strstrt(" ".other." ", " ".name." ") > 0 ? name : ""
 if (table ne "") { eval answer(table, "facts") }
 moment = asked eq "" || !exists("unit_speed") ? "" : at_speed(speed, unit_speed)
 note = ""
+entries = 0                                         # of the legend of a drawing
 source_of(k) = table
 picked = asked eq "" ? "1" : "same(field('speed'),speed)"
 x = "field('crank')"

@@ -42,9 +42,7 @@ tallest = larger(line_y1[1] - line_y0[1], tile_columns < tiles ? line_y1[2] - li
 pixel = lesser(lesser(tile_limit, (1720.0 - lead_room)/tile_columns)/(x1 - x0), 1.25*tile_limit/tallest)
 eval entries_of_forces
 load plots."tiles.gp"
-call plots."ground.gp" sprintf("%.12g", O2_x) sprintf("%.12g", O2_y) size 1 "pinned"
-call plots."ground.gp" sprintf("%.12g", O4_x) sprintf("%.12g", O4_y) size 11 "pinned"
-eval ground_hooks(size)
+eval fixed_pivots(size).ground_hooks(size)
 set print places
 print pins_to_name($places[1], $forces[1])
 unset print

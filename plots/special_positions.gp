@@ -74,9 +74,7 @@ lead_room = 45
 head_of_columns = 10
 tile_least = 345
 load plots."tiles.gp"
-call plots."ground.gp" sprintf("%.12g", O2_x) sprintf("%.12g", O2_y) size 1 "pinned"
-call plots."ground.gp" sprintf("%.12g", O4_x) sprintf("%.12g", O4_y) size 11 "pinned"
-eval ground_hooks(size)
+eval fixed_pivots(size).ground_hooks(size)
 set multiplot
 do for [k=1:tiles] {
     if (place_at[k] == 0) { continue }
