@@ -9,7 +9,7 @@ call plots."motion_pictures.gp"
 fine = lesser(every_row, 4)
 stride = every_row/fine
 shapes = out.".shapes"
-load "< sh ".quoted(plots."motion_shapes.sh")." ".quoted(shapes).sprintf(" %d %d 0.018", stride, fine*(pictures - 1) + 1)
+load "< sh ".quoted(plots."places.sh")." motion ".quoted(shapes).sprintf(" %d %d 0.018", stride, fine*(pictures - 1) + 1)
 load plots."shape_parts.gp"
 array rates[poses]
 keep_rate(n) = n > poses ? NaN : (rates[n] = field("rate1"), n)

@@ -31,10 +31,7 @@ array line_y0[tile_lines]
 array line_y1[tile_lines]
 do for [line=1:tile_lines] { line_y0[line] = x0; line_y1[line] = x1 }
 tile_limit = tiles <= 6 ? 420.0 : 330.0
-tile_least = 200
 caption_lines = 2
-lead_room = 0
-head_of_columns = 0
 load plots."tiles.gp"
 
 set multiplot

@@ -24,11 +24,6 @@ do for [line=1:(tiles - 1)/tile_columns + 1] {
 }
 headline = numbered(figure, sprintf("Elastic linkage over a turn, %s", moment))
 note = magnified_text."; links drawn as cubics between the displacements and rotations of their ends"
-tile_limit = 400.0
-tile_least = 200
-caption_lines = 1
-lead_room = 0
-head_of_columns = 0
 load plots."legend.gp"
 eval entry_line("rigid links", rigid_look)
 eval entry_line("elastic links", bent_look)

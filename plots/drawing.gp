@@ -20,6 +20,13 @@ amount(value, unit) = amount_in(value, amount_power(value, unit)).amount_unit(un
 places = out.".labels"
 labels_as(block) = "< awk -v datablock=".block." -f ".quoted(plots."labels.awk")." ".quoted(places)
 
+# Of tiles (tiles.gp): the largest and the least width, lines below each, pixels to the left of all and above their columns.
+tile_limit = 400.0
+tile_least = 200
+caption_lines = 1
+lead_room = 0
+head_of_columns = 0
+
 # Pixels to a unit of the axes, of a drawing alone on its page.
 drawing_scale(x0, x1, y0, y1) = lesser(1330/(x1 - x0), 830/(y1 - y0))
 

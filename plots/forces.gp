@@ -32,11 +32,6 @@ do for [k=1:tiles] {
     }
 }
 headline = numbered(figure, sprintf("Forces at the pins, %s", moment))
-tile_limit = 400.0
-tile_least = 200
-caption_lines = 1
-lead_room = 0
-head_of_columns = 0
 load plots."legend.gp"
 tallest = larger(line_y1[1] - line_y0[1], tile_columns < tiles ? line_y1[2] - line_y0[2] : 0)
 pixel = lesser(lesser(tile_limit, (1720.0 - lead_room)/tile_columns)/(x1 - x0), 1.25*tile_limit/tallest)

@@ -1,4 +1,4 @@
-# Poses of the linkage, as geometry.sh asks for them, as gnuplot assignments and a datablock:
+# Poses of the linkage, as places.sh asks for them, as gnuplot assignments and a datablock:
 #   awk -v block=BLOCK -f quoted.awk -f springs.awk -f geometry.awk links points places poses asked
 # A line of poses is branch, angle, then for every pin and point the number of its link (0 the ground, below 0 for points), its
 # name and its place; for springs and dampers likewise, see `poses` of tables.awk.

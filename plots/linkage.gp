@@ -1,13 +1,13 @@
 # The linkage at any position, and the points of points.dat or response.dat on its links, as the program places them. After style.gp:
 #   call "linkage.gp" [points.dat or response.dat]
-# Then blocks of poses are asked for: angles are printed to the file `angles`, a position a line (see geometry.sh), and
+# Then blocks of poses are asked for: angles are printed to the file `angles`, a position a line (see places.sh), and
 #   load poses_as("block")
 # sets the block, the pivots O2 and O4, whether the crank turns fully, and the links of the points.
 
 table_of_poses = ARG1
 angles = out.".angles"
 I = {0, 1}
-poses_as(block) = sprintf("< rm -rf %s; sh %s %s %s %s", quoted(angles.".d"), quoted(plots."geometry.sh"), block, quoted(angles), \
+poses_as(block) = sprintf("< sh %s four_bar %s %s %s %s", quoted(plots."places.sh"), quoted(angles.".d"), block, quoted(angles), \
     table_of_poses eq "" ? "" : quoted(table_of_poses))
 # Once a block is there: the pivots in parts.
 pivots = "O2_x = real(O2); O2_y = imag(O2); O4_x = real(O4); O4_y = imag(O4)"

@@ -7,7 +7,7 @@
 # blocks_of(pose), which includes springs, and joints_of(pose, points, ink). clamp_walls(k, size, tag), to be evaluated, draws the walls of mode k.
 
 shapes = out.".linkage"
-load "< sh ".quoted(plots."mode_shapes.sh")." ".quoted(shapes)." ".quoted(table)." ".ARG1." ".ARG2." ".ARG3." ".ARG4.\
+load "< sh ".quoted(plots."places.sh")." modes ".quoted(shapes)." ".quoted(table)." ".ARG1." ".ARG2." ".ARG3." ".ARG4.\
     sprintf(" %.9g ", 0.011*ARG5).quoted(ARG6)
 load plots."shape_parts.gp"
 

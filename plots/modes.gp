@@ -55,7 +55,6 @@ array line_y0[tiles]
 array line_y1[tiles]
 do for [line=1:tiles] { line_y0[line] = up_min - 1.8*size; line_y1[line] = up_max + 0.6*size }
 tile_limit = 300.0
-tile_least = 200
 caption_lines = gridded ? 1 : 2
 lead_room = gridded ? 50 : 0
 head_of_columns = gridded ? 40 : 10

@@ -12,6 +12,6 @@ if (exists("home_low")) {
     pose_high = goes_round || home_high < pose_high ? home_high - home_edge : pose_high
 }
 shapes = out.".shapes"
-load "< sh ".quoted(plots."shapes.sh")." ".quoted(shapes).sprintf(" %.17g %.17g %d %.6g", pose_low, pose_high, ARG1 + 0, ARG2 + 0)
+load "< sh ".quoted(plots."places.sh")." range ".quoted(shapes).sprintf(" %.17g %.17g %d %.6g", pose_low, pose_high, ARG1 + 0, ARG2 + 0)
 
 load plots."shape_parts.gp"

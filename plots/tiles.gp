@@ -7,7 +7,6 @@
 
 tile_lines = int(ceil(tiles/(1.0*tile_columns)))
 if (tile_columns > tiles) { tile_columns = tiles }
-if (!exists("tile_limit")) { tile_limit = 400.0 }
 highest = 0
 do for [line=1:tile_lines] { highest = larger(highest, line_y1[line] - line_y0[line]) }
 tile_width = lesser(tile_limit, (1720.0 - lead_room)/tile_columns)

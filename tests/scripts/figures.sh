@@ -209,7 +209,7 @@ modes_swing() {
 
 # swung DECK CRANK PARTS: in the first mode at speed 0, as the figures of its shape draw it; facts to the file told.
 swung() {
-  (cd "$scratch/out/$1" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/mode_shapes.sh" "$scratch/$1.linkage" shapes.dat 0 1 "$2" 40 4 "$3") \
+  (cd "$scratch/out/$1" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/places.sh" modes "$scratch/$1.linkage" shapes.dat 0 1 "$2" 40 4 "$3") \
     >"$scratch/told" && grep -q "$4" "$scratch/told" || { cat "$scratch/told"; return 1; }
 }
 
@@ -279,8 +279,7 @@ nothing_to_animate() {
 placed() {
   run 0 --quiet --out "$scratch/out" inputs/kinematics.deck || return 1
   printf '%s\n' 0 350 10 10.00000000000001 '10 open' '10 crossed' >"$scratch/angles"
-  rm -rf "$scratch/angles.d"
-  (cd "$scratch/out/kinematics" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/geometry.sh" placed "$scratch/angles") \
+  (cd "$scratch/out/kinematics" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/places.sh" four_bar "$scratch/angles.d" placed "$scratch/angles") \
     >"$scratch/stdout" 2>"$scratch/stderr" || { cat "$scratch/stderr"; return 1; }
   silent || return 1
   python3 - "$scratch/stdout" <<'END_OF_PYTHON'
@@ -343,8 +342,7 @@ odd_names() {
   for deck in plain numbers dash; do
     run 0 --quiet --out "$scratch/out" "$scratch/$deck.deck" || return 1
     printf '%s\n' 10 200 >"$scratch/angles.$deck"
-    rm -rf "$scratch/angles.$deck.d"
-    (cd "$scratch/out/$deck" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/geometry.sh" placed "$scratch/angles.$deck" points.dat) \
+      (cd "$scratch/out/$deck" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/places.sh" four_bar "$scratch/angles.$deck.d" placed "$scratch/angles.$deck" points.dat) \
       >"$scratch/told" || return 1
     sed -n 's/^link_ends = //p' "$scratch/told" >>"$scratch/link_ends"
     grep -v ^link_ends "$scratch/told" >"$scratch/placed.$deck"
@@ -383,8 +381,7 @@ spring_of_a_four_bar() {
   drawn desk_lamp figures coupler_curve equilibrium forces kinematics_angles lagrange linkage motion pin_motion reactions || return 1
   drawn desk_lamp animations forces linkage motion && gif desk_lamp/animations/linkage.gif 60 || return 1
   printf '%s\n' 0 60 >"$scratch/angles.lamp"
-  rm -rf "$scratch/angles.lamp.d"
-  (cd "$scratch/out/desk_lamp" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/geometry.sh" placed "$scratch/angles.lamp" points.dat) \
+  (cd "$scratch/out/desk_lamp" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/places.sh" four_bar "$scratch/angles.lamp.d" placed "$scratch/angles.lamp" points.dat) \
     >"$scratch/told" || return 1
   python3 - "$scratch/told" <<'END_OF_PYTHON'
 import math
@@ -434,7 +431,7 @@ REPORT motion crank=60 end=1 step=0.02
 END_OF_DECK
   run 0 --quiet --out "$scratch/out" "$scratch/sprung.deck" || return 1
   drawn sprung figures equilibrium linkage linkage_positions motion pin_motion && drawn sprung animations linkage motion || return 1
-  (cd "$scratch/out/sprung" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/shapes.sh" "$scratch/sprung.shapes" 0 720 8 0.014) \
+  (cd "$scratch/out/sprung" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/places.sh" range "$scratch/sprung.shapes" 0 720 8 0.014) \
     >"$scratch/told" || return 1
   grep -q "springs = 4; spring_kinds = \"spring damper coil drag\"; spring_names = ' \"s\" \"d\" \"t\" \"e\"'" "$scratch/told" || return 1
   python3 - "$scratch/told" <<'END_OF_PYTHON'
@@ -522,7 +519,7 @@ moving_places() {
 
 # Shapes of a position: two colours a link and a slider, two for pins; a plate has its corners' hull.
 drawn_shapes() {
-  (cd "$scratch/out/klann" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/shapes.sh" "$scratch/klann.shapes" 0 360 4 0.014) \
+  (cd "$scratch/out/klann" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/places.sh" range "$scratch/klann.shapes" 0 360 4 0.014) \
     >"$scratch/told" || return 1
   grep -q 'layers = 12; body_layers = 10; paths = 5; grounds = 3; drawn_links = 5' "$scratch/told" &&
     grep -q "path_names = ' \"P29\" \"P27\" \"P35\" \"P37\" \"P33\"'" "$scratch/told" &&
