@@ -1,146 +1,77 @@
 # The branches of one speed: frequencies followed by their shapes, against the crank angle, with their crossings and veerings.
 # A branch has the same line at every speed.
 
-load keep("curves", table, sprintf("branches %.12g", speed))       # columns: see tables.awk
-load keep("events", table, sprintf("events %.12g", speed))
-branches = ""
-low = 1e300; high = -1e300
-stats $curves using (branches = $4 == 1 ? sprintf("%s %d", branches, $3) : branches, \
-    low = $2 < low ? $2 : low, high = $2 > high ? $2 : high, 0) nooutput
-n = words(branches)
+load keep("curves", table, "branches ".asked_speed)                # columns: see tables.awk
+load keep("events", table, "events ".asked_speed)
 crossings = 0; veerings = 0; ambiguous = 0
 if (|$events| > 0) {
     stats $events using (crossings = crossings + ($1 == 1), veerings = veerings + ($1 == 2), \
         ambiguous = ambiguous + ($1 == 3), 0) nooutput
 }
 
-positions = words(answer(table, "distinct crank"))
+# Least and greatest frequency and number of the branches, in the order of the least.
+order = system(rows_if(table, is_at("speed", asked_speed))[3:*]." | awk ".quoted(sprintf("NF { b = $%d; f = $%d; ", col_branch, col_frequency).\
+    "if (!(b in least) || f < least[b]) least[b] = f; if (!(b in most) || f > most[b]) most[b] = f } ".\
+    "END { for (b in least) print least[b], most[b], b }")." | sort -g -k1,1 -k3,3")
+n = words(order)/3
+least(i) = word(order, 3*i - 2) + 0.0
+greatest(i) = word(order, 3*i - 1) + 0.0
+branch(i) = word(order, 3*i)
+highest(first, last) = first == last ? greatest(last) : larger(greatest(first), highest(first + 1, last))
+low = least(1)
+high = highest(1, n)
 
-# Beyond the lines there are, a figure begins anew with the first.
-line(k) = high_branch <= 16 ? int(word(branches, k)) : k
-event(kind, value) = $1 == kind ? value : NaN
-
-headline = numbered(figure, sprintf("Branches of natural frequencies %s, %s", against_position(unit_crank), moment))
+headline = sprintf("Branches of natural frequencies %s, %s", against_position(unit_crank), moment)
 note = low < 0 ? divergence : ""
 explained = (veerings > 0 ? "; veering: two branches approach, then part with their shapes exchanged" : "").\
     (ambiguous > 0 ? "; ambiguous: shapes do not decide which branch continues, a new one begins" : "")
 if (remark eq "") { remark = explained[3 : *] }
 
 # Branches that lie far apart have panels of their own, three at most: the widest gaps that are a tenth of the whole or more
-# divide them. Branches in the order of their least frequencies; band: what those up to one of them cover.
-array least[n]
-array greatest[n]
-do for [k=1:n] {
-    l = 1e300; g = -1e300
-    stats $curves index k-1 using (l = $2 < l ? $2 : l, g = $2 > g ? $2 : g, 0) nooutput
-    least[k] = l; greatest[k] = g
-}
-array rank[n]
-do for [k=1:n] {
-    place = 1
-    do for [m=1:n] { if (least[m] < least[k] || (least[m] == least[k] && m < k)) { place = place + 1 } }
-    rank[place] = k
-}
-array gap_above[n]
-covered = least[rank[1]]
-do for [i=1:n] {
-    covered = larger(covered, greatest[rank[i]])
-    gap_above[i] = i < n ? least[rank[i + 1]] - covered : 0
-}
+# divide them. The lowest frequencies are in the lowest panel.
+gap_above(i) = least(i + 1) - highest(1, i)
 widest_gap = 0; second_gap = 0
-do for [i=1:n] {
-    if (gap_above[i] > widest_gap) { second_gap = widest_gap; widest_gap = gap_above[i] } \
-    else { if (gap_above[i] > second_gap) { second_gap = gap_above[i] } }
+do for [i=1:n - 1] {
+    if (gap_above(i) > widest_gap) { second_gap = widest_gap; widest_gap = gap_above(i) } else { second_gap = larger(second_gap, gap_above(i)) }
 }
 divided = larger(0.1*(high - low), second_gap)
-array panel_of[n]
-panel = 1
-do for [i=1:n] {
-    panel_of[rank[i]] = panel
-    if (panel < 3 && i < n && gap_above[i] >= divided && high > low) { panel = panel + 1 }
-}
-panels = panel
-from_zero = panels == 1
+lasts = ""                                          # of the panels, from below
+do for [i=1:n - 1] { if (words(lasts) < 2 && gap_above(i) >= divided && high > low) { lasts = lasts." ".i } }
+lasts = lasts." ".n
+last_of(panel) = int(word(lasts, words(lasts) + 1 - panel))
+first_of(panel) = panel == words(lasts) ? 1 : last_of(panel + 1) + 1
+from_zero = words(lasts) == 1
 
-array low_of[panels]
-array high_of[panels]
-array entries_of[panels]
-most_entries = 0
-do for [panel=1:panels] {
-    low_of[panel] = 1e300; high_of[panel] = -1e300; entries_of[panel] = 0
-    do for [k=1:n] {
-        if (panel_of[k] == panel) {
-            low_of[panel] = lesser(low_of[panel], least[k])
-            high_of[panel] = larger(high_of[panel], greatest[k])
-            entries_of[panel] = entries_of[panel] + 1
-        }
-    }
-    most_entries = larger(most_entries, entries_of[panel] + 3)
+# Beyond the lines there are, a figure begins anew with the first. In a panel branches stand by their numbers.
+in_order(panel) = system("printf '%s\\n' ".branches_of(first_of(panel), last_of(panel))." | sort -n")
+branches_of(first, last) = first > last ? "" : branch(first)." ".branches_of(first + 1, last)
+numbered_title(k, panel) = k > words(members[panel]) ? "" : sprintf(" 'branch %s'", word(members[panel], k)).numbered_title(k + 1, panel)
+array members[3]
+do for [panel=1:words(lasts)] {
+    members[panel] = in_order(panel)
+    added = panel_of("natural frequency", unit_frequency, repeated(words(members[panel]), "$2"), numbered_title(1, panel))
+    legend_entries = larger(legend_entries, words(members[panel]) + 3)
 }
+x = "$1"
+picked = "1"
+source_of(k) = "$curves".word(members[panel], k)
+pen_of(k) = high_branch <= 16 ? int(word(members[panel], k)) : place_of(word(members[panel], k))
+place_of(number) = sum [k_of=1:n] (branch(k_of) + 0 <= number + 0)
+marks_of(k) = sprintf("source_of(%d) using 1:($3 == 1 ? $2 : NaN)", k)
+height_of(n) = n == 1 ? 750 : n == 2 ? 420 : 330
+least_entries = 1
+least_rows = words(answer(table, "distinct crank"))
 
 # A veering is a triangle above its gap and one below, for which there must be room; a crossing is an open circle.
-roomy(low, high) = veerings > 0 ? 0.07*(high - low) : 0
-full_height = panels == 1 ? 750 : panels == 2 ? 420 : 330
-gap = 35
-lower = foot(lines_of_notes(note, remark))
-tick_room = 0
-lines = 1
-title_of(panel) = value_title("natural frequency", unit_frequency, low_of[panel], high_of[panel])
-do for [panel=1:panels] {
-    extra = roomy(low_of[panel], high_of[panel])
-    if (from_zero && low_of[panel] >= 0 && low_of[panel] < 0.2*high_of[panel]) { high_of[panel] = high_of[panel] + extra } \
-    else { low_of[panel] = low_of[panel] - extra; high_of[panel] = high_of[panel] + extra }
-    tick_room = larger(tick_room, value_width(low_of[panel], high_of[panel], full_height))
-    lines = larger(lines, planned_lines(title_of(panel), full_height))
-}
-eval legend_page(125 + lower + panels*(full_height + gap) - gap, most_entries, text_width("branch 888", 20), tick_room, lines)
-panel_height = (@panel_room - lower + gap)/panels - gap
-eval heading
-set multiplot
-do for [place=1:panels] {
-    panel = panels + 1 - place                      # the lowest frequencies are in the lowest panel
-    base = lower + (panel - 1)*(panel_height + gap)
-    set bmargin at screen up(base)
-    set tmargin at screen up(base + panel_height)
-    set key at screen across(key_left), up(base + panel_height)
-    if (place > 1) { do for [label=901:904] { unset label label } }
-    bare = place < panels
-    eval crank_axis(low_crank, high_crank)
-    bare = 0
-    if (place < panels) { set format x ""; set xlabel "" } else { set format x "%h" }
-    eval value_axis(low_of[panel], high_of[panel], panel_height)
-    eval axis_title(title_of(panel), base, panel_height)
-
-    named = listed(entries_of[panel] + 3) - 3       # three places are for the marks
-    named = named < entries_of[panel] ? named : entries_of[panel]
-    off = 17.0*(value_top(low_of[panel], high_of[panel]) - value_bottom(low_of[panel], high_of[panel]))/panel_height
-    parts = ""
-    keys = ""
-    count = 0
-    do for [k=1:n] {
-        if (panel_of[k] == panel) {
-            count = count + 1
-            parts = parts.sprintf("$curves index %d using 1:2 with lines lt %d lw %g notitle, ", k - 1, line(k), line_width(positions)).\
-                sprintf("$curves index %d using 1:2 with points lt %d pt 7 ps %g notitle, ", k - 1, line(k), dot_size(positions)).\
-                sprintf("$curves index %d using 1:($5 == 1 ? $2 : NaN) with points lt %d notitle, ", k - 1, line(k))
-            if (count <= named) { keys = keys.sprintf(", keyentry with linespoints lt %d title 'branch %s'", line(k), word(branches, k)) }
-        }
-    }
-    if (entries_of[panel] > named) { keys = keys.sprintf(", keyentry title '… +%d'", entries_of[panel] - named) }
-    shown(kind, low, high, value) = $1 == kind && low >= low_of[panel] && high <= high_of[panel] ? value : NaN
-    if (veerings > 0) {
-        parts = parts."$events using 2:(shown(2, $3, $4, $4 + off)) with points pt 11 ps 1.8 lc rgb ink notitle, ".\
-            "$events using 2:(shown(2, $3, $4, $3 - off)) with points pt 9 ps 1.8 lc rgb ink notitle, "
-        if (place == 1) { keys = keys.", keyentry with points pt 11 ps 1.8 lc rgb ink title 'veering'" }
-    }
-    if (crossings > 0) {
-        parts = parts."$events using 2:(shown(1, $3, $4, $3)) with points pt 6 ps 3 lw 2 lc rgb ink notitle, "
-        if (place == 1) { keys = keys.", keyentry with points pt 6 ps 3 lw 2 lc rgb ink title 'crossing'" }
-    }
-    if (ambiguous > 0) {
-        parts = parts."$events using 2:(shown(3, $3, $4, $3)) with points pt 2 ps 2 lw 2.5 lc rgb ink notitle, "
-        if (place == 1) { keys = keys.", keyentry with points pt 2 ps 2 lw 2.5 lc rgb ink title 'ambiguous'" }
-    }
-    eval "plot ".parts."NaN notitle".keys
-}
-unset multiplot
+room_for(panel) = veerings > 0 ? 0.07*(highest(first_of(panel), last_of(panel)) - least(first_of(panel))) : 0
+from_nothing(panel) = from_zero && low >= 0 && low < 0.2*high
+also_shown(panel) = from_nothing(panel) ? high + room_for(panel) : least(first_of(panel)) - room_for(panel)
+also_reached(panel) = highest(first_of(panel), last_of(panel)) + room_for(panel)
+off = "17.0*(value_top(low_of[panel], high_of[panel]) - value_bottom(low_of[panel], high_of[panel]))/panel_height"
+shown(kind, low, high, value) = $1 == kind && low >= low_of[panel] && high <= high_of[panel] ? value : NaN
+event_part(count, kind, height, look) = count == 0 ? "" : sprintf("$events using 2:(shown(%d, $3, $4, %s)) with points %s lc rgb ink notitle, ", kind, height, look)
+parts_above(panel) = event_part(veerings, 2, "$4 + ".off, "pt 11 ps 1.8").event_part(veerings, 2, "$3 - ".off, "pt 9 ps 1.8").\
+    event_part(crossings, 1, "$3", "pt 6 ps 3 lw 2").event_part(ambiguous, 3, "$3", "pt 2 ps 2 lw 2.5")
+event_key(count, look, name) = count == 0 ? "" : ", keyentry with points ".look." lc rgb ink title '".name."'"
+keys_of(panel) = panel > 1 ? "" : event_key(veerings, "pt 11 ps 1.8", "veering").event_key(crossings, "pt 6 ps 3 lw 2", "crossing").\
+    event_key(ambiguous, "pt 2 ps 2 lw 2.5", "ambiguous")

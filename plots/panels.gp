@@ -11,7 +11,7 @@ array low_of[panels]
 array high_of[panels]
 kept = ""
 longest = 0
-drawn_rows = 0
+drawn_rows = least_rows
 do for [panel=1:panels] {
     low = 1e300
     high = -1e300
@@ -82,8 +82,7 @@ do for [place=1:n_kept] {
         of_curve = sprintf("source_of(%d) using (%s):(%s ? %s : NaN)", k, x, picked, word(curves_of[panel], k))
         parts = parts.sprintf("%s with lines lt %d lw %g notitle, ", of_curve, pen_of(k), line_width(drawn_rows))
         dots = dots.sprintf("%s with points lt %d pt 7 ps %g notitle, ", of_curve, pen_of(k), dot_size(drawn_rows))
-        marks = marks.sprintf("source_of(%d) every %d::%d using (%s):(%s ? %s : NaN) with points lt %d notitle, ", \
-            k, mark_step(drawn_rows), marks_shifted*mark_first(k, n, drawn_rows), x, picked, word(curves_of[panel], k), pen_of(k))
+        marks = marks.marks_of(k).sprintf(" with points lt %d notitle, ", pen_of(k))
         if (!in_layers || k == n) { parts = parts.dots.marks; dots = ""; marks = "" }
     }
     bare = place < n_kept

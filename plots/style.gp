@@ -301,9 +301,12 @@ before_panel(panel) = ""
 parts_below(panel) = ""
 parts_above(panel) = ""
 keys_of(panel) = ""
-# Of all: the height of one of so many, the line of a curve, whether panels of nothing but zeros are kept; whether marks are shifted from curve to
+# Of all: where curve k is marked, the rows of which there are as many at least, the height of one of so many, the line of a curve, whether panels of nothing but zeros are kept; whether marks are shifted from curve to
 # curve, and lie, like the dots, above all lines; their legends: the least number of entries that make one, or one beside all panels, which have
 # the same curves, with a title; how many entries make the page wider.
+marks_of(k) = sprintf("source_of(%d) every %d::%d using (%s):(%s ? %s : NaN)", \
+    k, mark_step(drawn_rows), marks_shifted*mark_first(k, n, drawn_rows), x, picked, word(curves_of[panel], k))
+least_rows = 0
 height_of(n) = n == 1 ? 700 : n == 2 ? 400 : 330
 pen_of(k) = k
 zeros_kept = 0

@@ -36,8 +36,8 @@
 #   want="positions 20 8"           crank angles of response.dat at speed 20 with all digits, eight at most (six, if these divide a turn
 #                                  better), or all (0)
 #   want="displacements 20 8 A:crank B:coupler"    there, of these points: crank, then ux, uy and the rotation in radians of each
-#   want="branches 20"             the branches of branches.dat at speed 20, an index a branch, an empty line where rows
-#                                  have failed: crank, frequency, branch, 1 on its first row, 1 where a mark is drawn
+#   want="branches 20"             the branches of branches.dat at speed 20, a datablock a branch, named by its number, an empty line where
+#                                  rows have failed: crank, frequency, 1 where a mark is drawn
 #   want="joints 20"               of reactions.dat with a row a pin and link at speed 20, a line a joint with a force: its number among them
 #                                  and its name, A, or A:crank where the links feel different forces; one for the two opposite ones of two links
 #   want="limits"                  of linkage.dat of a linkage that is no four-bar: a line a range of the first drive (1), a link that swings
@@ -65,7 +65,7 @@ BEGIN {
     OFMT = CONVFMT = "%.11e"       # gnuplot takes the text 5e-05 for the number 5 and something behind it
     n_asked = split(want, asked, " ")
     header = 1
-    if (datablock && asked[1] != "rows") print "$" datablock " << EOD"
+    if (datablock && asked[1] !~ /^(rows|branches)$/) print "$" datablock " << EOD"
 }
 
 # The header: title, notes, names, units. A failed row is a comment too, but no part of it.
@@ -461,7 +461,7 @@ function print_branches(    i, first, last, step, number, marked, mark) {
     step = places > 24 ? int(places / 12) : 1
     for (first = 1; first <= points; first = last + 1) {
         for (last = first; branch[last + 1] == branch[first]; ) last++
-        if (number++) print "\n"
+        printf "%s$%s%s << EOD\n", number++ ? "EOD\n" : "", datablock, branch[first]
         marked = 0
         broken[first] = broken[last + 1] = 1
         for (i = first; i <= last; i++) {
@@ -471,7 +471,7 @@ function print_branches(    i, first, last, step, number, marked, mark) {
         if (!marked) mark[int((first + last) / 2)] = 1
         for (i = first; i <= last; i++) {
             if (broken[i] && i > first) print ""
-            print crank[i], value[i], branch[i], i == first, mark[i]
+            print crank[i], value[i], mark[i]
         }
     }
 }
