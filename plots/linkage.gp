@@ -27,8 +27,8 @@ extent = "x_min = real(O2); x_max = x_min; y_min = imag(O2); y_max = y_min; ".\
     "span = x_max - x_min > y_max - y_min ? x_max - x_min : y_max - y_min"
 
 # The pivots O2 and O4, and where springs are hooked into the ground: to be evaluated.
-fixed_pivots(size) = sprintf("call plots.'ground.gp' '%.12g' '%.12g' '%.17g' '1' 'pinned'; ", O2_x, O2_y, size).\
-    sprintf("call plots.'ground.gp' '%.12g' '%.12g' '%.17g' '11' 'pinned'; ", O4_x, O4_y, size)
+fixed_pivots(size) = sprintf("call plots.'ground.gp' '%.12g' '%.12g' '%g' '1' 'pinned'; ", O2_x, O2_y, size).\
+    sprintf("call plots.'ground.gp' '%.12g' '%.12g' '%g' '11' 'pinned'; ", O4_x, O4_y, size)
 ground_hooks(size) = sprintf("do for [hook=1:hooks] { call plots.'ground.gp' sprintf('%%.12g', hook_x[hook]) ".\
     "sprintf('%%.12g', hook_y[hook]) '%.9g' sprintf('%%d', 400 + 10*hook) 'pinned' sprintf('%%d', hook_turn[hook]) }", size)
 

@@ -306,6 +306,7 @@ keys_of(panel) = ""
 # the same curves, with a title; how many entries make the page wider.
 marks_of(k) = sprintf("source_of(%d) every %d::%d using (%s):(%s ? %s : NaN)", \
     k, mark_step(drawn_rows), marks_shifted*mark_first(k, n, drawn_rows), x, picked, word(curves_of[panel], k))
+has_curves = 1                                      # they are drawn with line, dots and marks
 least_rows = 0
 height_of(n) = n == 1 ? 700 : n == 2 ? 400 : 330
 pen_of(k) = k
