@@ -43,6 +43,12 @@ rows_of(column_and_angle) = "load keep('rows', table, 'rows '.asked_speed.' ".co
     "source_of(k) = sprintf('$rows%d', k)"
 each(expression) = repeated(words(names), expression)
 
+# The frequencies of a table, names and titles: on one high panel, whose axis is that of all rows.
+frequencies_of_table = "drawn = ''; shown = ''; lowest = 1e300; highest = -1e300; in_layers = 1; ".\
+    "do for [name in columns] { if (is_numbered(name, 'f')) { drawn = drawn.' '.name; shown = shown.' \"mode '.name[2:*].'\"'; ".\
+    "lowest = lesser(lowest, value('low_'.name)); highest = larger(highest, value('high_'.name)) } }; legend_entries = words(drawn); ".\
+    "height_of(n) = 875 - lower; also_shown(panel) = lowest; also_reached(panel) = highest"
+
 # Energies that are far from zero beside what changes, kinetic ones of a flywheel or potentials, whose zero is a matter of choice, are
 # drawn less their least value, as their titles say.
 energy_base(low, high) = high - low > 0.25*larger(abs(low), abs(high)) ? 0.0 : low
@@ -282,20 +288,11 @@ if (kind eq "kinematics") {
 # All frequencies of one speed; all speeds share one axis.
 if (kind eq "frequencies") {
     headline = sprintf("Natural frequencies %s, %s", against_position(unit_crank), moment)
-    drawn = ""
-    shown = ""
-    do for [name in columns] { if (is_numbered(name, "f")) { drawn = drawn." ".name; shown = shown." 'mode ".name[2:*]."'" } }
-    lowest = 1e300; highest = -1e300
-    do for [name in drawn] { lowest = lesser(lowest, value("low_".name)); highest = larger(highest, value("high_".name)) }
+    eval frequencies_of_table
     note = lowest < 0 ? divergence : ""
     added = panel_of("natural frequency", value("unit_".word(drawn, 1)), fields(drawn), shown)
-    also_shown(panel) = lowest
-    also_reached(panel) = highest
     pen_of(k) = int(word(drawn, k)[2:*])
-    height_of(n) = 875 - lower
-    in_layers = 1
     least_entries = 1
-    legend_entries = words(drawn)
 }
 if (declared == 0) { load plots.kind.".gp" }
 if (declared > 0) {

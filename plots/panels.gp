@@ -5,7 +5,6 @@
 # curve k of every panel. Panels of nothing but zeros are left out, unless all are; those with a logarithmic axis, on which zero and
 # what is below have no place (is_logarithmic of style.gp), are left out if nothing is above zero.
 
-panel_gap = 35
 lower = foot(lines_of_notes(note, remark))
 array low_of[panels]
 array high_of[panels]
@@ -44,11 +43,12 @@ lines = 1
 do for [k=1:n_kept] {
     panel = int(word(kept, k))
     tick_room = larger(tick_room, is_logarithmic(panel) && low_of[panel] > 0 ? log_width(low_of[panel], high_of[panel]) \
-        : value_width(low_of[panel], high_of[panel], full_height))
-    lines = larger(lines, planned_lines(title_of(panel), full_height))
+        : value_width(low_of[panel], high_of[panel], share_of(panel)*full_height))
+    lines = larger(lines, planned_lines(title_of(panel), share_of(panel)*full_height))
 }
 eval legend_page(125 + lower + n_kept*(full_height + panel_gap) - panel_gap, legend_entries, longest, tick_room, lines)
-panel_height = (@panel_room - lower + panel_gap)/n_kept - panel_gap
+even_height = (@panel_room - lower + panel_gap)/n_kept - panel_gap
+all_height = n_kept*(even_height + panel_gap) - panel_gap
 eval heading
 entry_of(k, panel) = sprintf(", keyentry with linespoints lt %d title word(titles_of[%d], %d)", pen_of(k), panel, k)
 entries_from(k, n, panel) = k > listed(n) ? (n > listed(n) ? ", keyentry title unlisted(".n.")" : "") : entry_of(k, panel).entries_from(k + 1, n, panel)
@@ -57,8 +57,8 @@ if (legend_once) {                                   # beside all panels, which 
     panel = int(word(kept, 1))
     if (legend_title ne "") { set key title legend_title left }
     set bmargin at screen up(lower)
-    set tmargin at screen up(lower + n_kept*(panel_height + panel_gap) - panel_gap)
-    set key at screen across(key_left), up(lower + n_kept*(panel_height + panel_gap) - panel_gap)
+    set tmargin at screen up(lower + all_height)
+    set key at screen across(key_left), up(lower + all_height)
     unset border
     unset tics
     eval "plot [0:1][0:1] NaN notitle".entries_from(1, words(curves_of[panel]), panel)
@@ -67,9 +67,11 @@ if (legend_once) {                                   # beside all panels, which 
     set xtics out nomirror
     set ytics out nomirror
 }
+base = lower + all_height + panel_gap
 do for [place=1:n_kept] {
     panel = int(word(kept, place))
-    base = lower + (n_kept - place)*(panel_height + panel_gap)
+    panel_height = share_of(panel)*even_height
+    base = base - panel_gap - panel_height
     set bmargin at screen up(base)
     set tmargin at screen up(base + panel_height)
     if (!legend_once) { set key at screen across(key_left), up(base + panel_height) }

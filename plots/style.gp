@@ -309,6 +309,8 @@ marks_of(k) = sprintf("source_of(%d) every %d::%d using (%s):(%s ? %s : NaN)", \
 has_curves = 1                                      # they are drawn with line, dots and marks
 least_rows = 0
 height_of(n) = n == 1 ? 700 : n == 2 ? 400 : 330
+share_of(panel) = 1.0                               # of the height
+panel_gap = 35
 pen_of(k) = k
 zeros_kept = 0
 marks_shifted = 1

@@ -1,20 +1,9 @@
 # What summary.dat has of every variant against a varied parameter (figure.gp): bands from the least to the greatest value with the mean
 # between. Frequencies share a panel, damping ratios too, every other quantity has its own. Other parameters are those of the first row.
 
-varied = answer(table, "varied")
-# A name may be one that no variable can have.
-unit_named(name) = (its_unit = answer(table, "unit ".name), its_unit eq "-" ? "" : typeset(its_unit))
-with_unit(text, name) = unit_named(name) eq "" ? text : text." ".unit_named(name)
-fixed = ""
-place = 0
-do for [k=1:words(varied)] {
-    name = word(varied, k)
-    if (name eq other) { place = k } else { fixed = fixed.(fixed eq "" ? ";  " : ", ").with_unit(sprintf("%s = %.10g", inside(name, 30), word(answer(table, "distinct ".name), 1) + 0), name) }
-}
-echo = system("dirname ".quoted(table))."/echo.deck"
-meaning = system("[ ! -f ".quoted(echo)." ] || awk -v name=".quoted(other)." -f ".quoted(plots."meaning.awk")." < ".quoted(echo))
-headline = "Least, mean and greatest against ".(meaning eq "" ? inside(other, 50) : "the ".inside(meaning, 50))
-note = "bands: least to greatest over the computed positions and speeds, lines: mean".fixed
+load plots."parameter.gp"
+headline = "Least, mean and greatest against ".meant
+note = "bands: least to greatest over the computed positions and speeds, lines: mean".(fixed eq "" ? "" : "; ".fixed[2:*])
 
 # The quantities of every panel: their names in the columns.
 is_mean(name) = strlen(name) > 5 && name[strlen(name) - 4 : *] eq "_mean"
@@ -38,15 +27,6 @@ if (words(ratios) > 0) { quantities_of[declared + 1] = ratios; added = panel_of_
 do for [name in others] { quantities_of[declared + 1] = name; added = panel_of_means(with_blanks(name), name, "mean") }
 
 source_of(k) = "< awk -v want=".quoted("rows_by ".other)." -f ".quoted(plots."quoted.awk")." -f ".quoted(plots."tables.awk")." < ".quoted(table)
-x = sprintf("column(%d)", place)
-extent = answer(table, "range ".other)
-low_place = word(extent, 1) + 0.0
-high_place = word(extent, 2) + 0.0
-# A single value has a band without width: its ends are drawn as points.
-if (high_place == low_place) { margin = low_place == 0 ? 1 : 0.01*abs(low_place); low_place = low_place - margin; high_place = high_place + margin }
-x_title = "x_axis_title = abscissa_title(meaning eq '' ? other : meaning.', '.other, answer(table, 'unit '.other), low_place, high_place)"
-x_axis = "eval abscissa(low_place, high_place); ".x_title."; set xlabel fitted(x_axis_title, plot_width + 100, 16) noenhanced ".\
-    "font point_size(fit_size(x_axis_title, plot_width + 100, 20, 16))"
 
 least_of(panel) = (found_least = 1e300, sum [k_of=1:words(quantities_of[panel])] \
     (found_least = lesser(found_least, value("low_".word(quantities_of[panel], k_of)."_least")), 0), found_least)
@@ -54,7 +34,6 @@ greatest_of(panel) = (found_greatest = -1e300, sum [k_of=1:words(quantities_of[p
     (found_greatest = larger(found_greatest, value("high_".word(quantities_of[panel], k_of)."_greatest")), 0), found_greatest)
 also_shown(panel) = least_of(panel)
 also_reached(panel) = greatest_of(panel)
-set style fill transparent solid 0.25 noborder
 edge(panel, k, end) = sprintf("source_of(1) using (%s):(field('%s_%s')) with lines lt %d lw 1 notitle, source_of(1) using (%s):(field('%s_%s')) with points lt %d pt 7 ps %g notitle, ", \
     x, word(quantities_of[panel], k), end, k, x, word(quantities_of[panel], k), end, k, dot_size(drawn_rows))
 one_band(panel, k) = sprintf("source_of(1) using (%s):(field('%s_least')):(field('%s_greatest')) with filledcurves lt %d notitle, ", \
