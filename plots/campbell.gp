@@ -58,7 +58,6 @@ set xlabel abscissa_title("crank speed ω₂", unit_speed, speed_low, speed_high
 unset grid
 
 tint(k) = word("#B9B9B9 #A9C7E4 #F0C3A5 #A5D6C6 #D3BDE0 #CFCFCF #E6D3A0 #E3B0C4", 1 + (k - 1)%8)
-pen(k) = word("#000000 #0060A8 #C04000 #007A5A #7A3E9D #6B6B6B #B8860B #A01850", 1 + (k - 1)%8)
 mark(k) = int(word("7 9 5 13 11 15 6 8", 1 + (k - 1)%8))
 
 # Multiples of the speed, each with its number where it leaves the diagram.
@@ -91,13 +90,13 @@ do for [k=1:unstable] {
 of_mode(k) = rows_if(table, is_at("mode", sprintf("%d", k)))." | sort -g"
 plot for [k=1:modes] of_mode(k) using (abs(field("speed"))):(field("least")):(field("greatest")) \
         with filledcurves fs transparent solid 0.5 noborder fc rgb tint(k) notitle, \
-    for [k=1:modes] of_mode(k) using (abs(field("speed"))):(field("mean")) with lines lw 2.5 lc rgb pen(k) dt solid notitle, \
-    for [k=1:modes] of_mode(k) using (abs(field("speed"))):(field("floquet")) with points pt mark(k) ps 1.1 lc rgb pen(k) notitle, \
+    for [k=1:modes] of_mode(k) using (abs(field("speed"))):(field("mean")) with lines lw 2.5 lc rgb ink_of(k) dt solid notitle, \
+    for [k=1:modes] of_mode(k) using (abs(field("speed"))):(field("floquet")) with points pt mark(k) ps 1.1 lc rgb ink_of(k) notitle, \
     marks using (abs(column(c_speed))):(column(c_frequency)):(size_of(column(c_excitation))) \
         with points pt 6 lw 2.5 ps variable lc rgb "#C00000" notitle, \
     for [k=1:modes] keyentry with filledcurves fs solid 0.5 fc rgb tint(k) title name_of(k), \
-    for [k=1:modes] keyentry with lines lw 2.5 lc rgb pen(k) dt solid title sprintf("mode %d, mean", k), \
-    for [k=1:modes] keyentry with points pt mark(k) ps 1.4 lc rgb pen(k) title sprintf("mode %d, Floquet", k), \
+    for [k=1:modes] keyentry with lines lw 2.5 lc rgb ink_of(k) dt solid title sprintf("mode %d, mean", k), \
+    for [k=1:modes] keyentry with points pt mark(k) ps 1.4 lc rgb ink_of(k) title sprintf("mode %d, Floquet", k), \
     for [k=1:1] keyentry with lines lw 1.2 lc rgb "#8C8C8C" dt (9,5) title "n × speed", \
     for [k=1:has_critical] keyentry with points pt 6 lw 2.5 ps 2 lc rgb "#C00000" title "critical speed", \
     for [k=1:unstable > 0] keyentry with boxes fs transparent pattern 4 fc rgb "#B06080" title of_unstable

@@ -13,28 +13,13 @@ headline = numbered(figure, number_of_speeds == 1 ? sprintf("Multipliers of a tu
     : sprintf("Multipliers of a turn, ω₂ = %.6g to %.6g %s", low_speed, high_speed, typeset(unit_speed)))
 note = sprintf("multipliers ρ and their conjugates; filled: beside the unit circle, where the distance ln|ρ| is drawn %s", \
     magnified == 1 ? "as it is" : sprintf("%g times as large", magnified))
-pen(k) = word("#000000 #0060A8 #C04000 #007A5A #7A3E9D #6B6B6B #B8860B #A01850", 1 + (k - 1)%8)
 mark(k) = int(word("6 8 4 12 10 14 1 2", 1 + (k - 1)%8))
 filled(k) = int(word("7 9 5 13 11 15 1 2", 1 + (k - 1)%8))
 
-circle = 400.0
-pixel = circle/1.45
-page = 1130
-bottom = lines_of_notes(note, remark) > 0 ? 50 + 31*lines_of_notes(note, remark) : 10
-centre_x = page/2.0
-centre_y = bottom + circle + 30
-eval open_page(page, centre_y + circle + 135)
-eval heading
-unset border
-unset tics
-unset grid
+radius = 1.45
+head_height = 135
+load plots."polar.gp"
 set key at 0, 0 center center Left reverse samplen 1.5 spacing 1.2 maxrows 7 opaque
-set lmargin at screen across(centre_x - circle - 60)
-set rmargin at screen across(centre_x + circle + 60)
-set bmargin at screen up(centre_y - circle - 30)
-set tmargin at screen up(centre_y + circle + 30)
-set xrange [-(circle + 60)/pixel:(circle + 60)/pixel]
-set yrange [-(circle + 30)/pixel:(circle + 30)/pixel]
 
 set object 1 circle at 0, 0 size 1 fs empty border rgb "#606060" lw 2.5 behind
 do for [k=1:2] {
@@ -55,8 +40,8 @@ of_mode(k) = rows_if(table, is_at("mode", sprintf("%d", k)))
 leaves(growth, error) = abs(growth) > error
 plot for [k=1:modes] for [side=-1:1:2] of_mode(k) using \
         (leaves(field("growth"), field("error")) ? NaN : cos(2*pi*field("turns"))):(side*sin(2*pi*field("turns"))) \
-        with points pt mark(k) ps 1.3 lw 2 lc rgb pen(k) notitle, \
+        with points pt mark(k) ps 1.3 lw 2 lc rgb ink_of(k) notitle, \
     for [k=1:modes] for [side=-1:1:2] of_mode(k) using \
         (leaves(field("growth"), field("error")) ? radius(field("growth"))*cos(2*pi*field("turns")) : NaN):(side*radius(field("growth"))*sin(2*pi*field("turns"))) \
-        with points pt filled(k) ps 1.5 lc rgb pen(k) notitle, \
-    for [k=1:modes] keyentry with points pt mark(k) ps 1.5 lw 2 lc rgb pen(k) title sprintf("mode %d", k)
+        with points pt filled(k) ps 1.5 lc rgb ink_of(k) notitle, \
+    for [k=1:modes] keyentry with points pt mark(k) ps 1.5 lw 2 lc rgb ink_of(k) title sprintf("mode %d", k)

@@ -26,30 +26,10 @@ if (balanced) {
 }
 
 # The greatest ring fills the page but for its names of axes.
-circle = 400.0
-pixel = circle/radius
-page = 1130
-legend_room = legend_height(page - 60)
-bottom = lines_of_notes(note, remark) > 0 ? 50 + 31*lines_of_notes(note, remark) : 10
-centre_x = page/2.0
-centre_y = bottom + circle + 30
-eval open_page(page, centre_y + circle + 45 + legend_room + 110)
-eval heading
+head_height = 155 + legend_height(1070)
+load plots."polar.gp"
 eval draw_legend(112)
-page_x(x) = centre_x + pixel*x
-page_y(y) = centre_y + pixel*y
-unscaled_x(x) = (x - centre_x)/pixel
-unscaled_y(y) = (y - centre_y)/pixel
-unset border
-unset tics
-unset grid
 unset key
-set lmargin at screen across(centre_x - circle - 60)
-set rmargin at screen across(centre_x + circle + 60)
-set bmargin at screen up(centre_y - circle - 30)
-set tmargin at screen up(centre_y + circle + 30)
-set xrange [unscaled_x(centre_x - circle - 60):unscaled_x(centre_x + circle + 60)]
-set yrange [unscaled_y(centre_y - circle - 30):unscaled_y(centre_y + circle + 30)]
 
 # Rings and spokes.
 rings = int(radius/ring + 0.5)

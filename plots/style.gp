@@ -74,19 +74,12 @@ down(pixels) = 1 - up(pixels - top_cut)                                   # from
 
 # ---- Lines: told apart without colour by dashes and marks ------------------------------------------------------
 
-set linetype 1 lw 3 lc rgb "#000000" dt solid          pt 6  ps 1.8
-set linetype 2 lw 3 lc rgb "#0060A8" dt (16,7)         pt 8  ps 2.0
-set linetype 3 lw 3 lc rgb "#C04000" dt (4,5)          pt 4  ps 1.7
-set linetype 4 lw 3 lc rgb "#007A5A" dt (18,6,4,6)     pt 12 ps 2.0
-set linetype 5 lw 3 lc rgb "#7A3E9D" dt (26,6)         pt 10 ps 2.0
-set linetype 6 lw 3 lc rgb "#6B6B6B" dt (10,5,3,5,3,5) pt 2  ps 1.7
-set linetype 7 lw 3 lc rgb "#B8860B" dt (8,8)          pt 1  ps 1.8
-set linetype 8 lw 3 lc rgb "#A01850" dt (2,4)          pt 3  ps 1.8
-do for [k=1:8] {                                    # the next eight: the same with filled marks
-    eval sprintf("set linetype %d lw 3 lc rgb '%s' dt %s pt %d ps 1.7", k + 8, \
-        word("#000000 #0060A8 #C04000 #007A5A #7A3E9D #6B6B6B #B8860B #A01850", k), \
-        word("solid (16,7) (4,5) (18,6,4,6) (26,6) (10,5,3,5,3,5) (8,8) (2,4)", k), \
-        word("7 9 5 13 11 15 14 2", k) + 0)
+# The second eight are the same with filled marks.
+ink_of(k) = word("#000000 #0060A8 #C04000 #007A5A #7A3E9D #6B6B6B #B8860B #A01850", 1 + (k - 1)%8)
+do for [k=1:16] {
+    eval sprintf("set linetype %d lw 3 lc rgb '%s' dt %s pt %s ps %s", k, ink_of(k), \
+        word("solid (16,7) (4,5) (18,6,4,6) (26,6) (10,5,3,5,3,5) (8,8) (2,4)", 1 + (k - 1)%8), \
+        word("6 8 4 12 10 2 1 3 7 9 5 13 11 15 14 2", k), word("1.8 2.0 1.7 2.0 2.0 1.7 1.8 1.8", k > 8 ? 3 : k))
 }
 set linetype cycle 16
 
