@@ -335,24 +335,33 @@ plan_speeds() {
     done
 }
 
-# plan_table: the figures of figures.txt.
+# meets TABLE CONDITION: see figures.txt
+meets() {
+    case $2 in
+        no_law) [ -z "$over" ] ;;
+        placed) can_place ;;
+        positions) several "$1" ;;
+        instants) several "$1" time ;;
+        dozen) [ "$(ask 'distinct crank' "$1" | wc -l)" -ge 12 ] ;;
+        angles) several "$1" && is_angle "$1" ;;
+        speeds) several "$1" speed ;;
+        points) ask 'distinct point' "$1" | grep -qv : ;;
+    esac
+}
+
+# plan_table: the figures or animations of figures.txt.
 plan_table() {
-    grep -v '^#' "$PLOTS/figures.txt" | while read -r figure kind table linkages law by others columns needed; do
+    sed -n "s/^$figures  *//p" "$PLOTS/figures.txt" | while read -r figure kind table linkages per conditions others columns needed; do
         case $linkages in any | "$linkage") ;; *) continue ;; esac
-        [ -z "$over" ] || [ "$law" = yes ] || continue
         have "$table" || continue
-        case $by in
-            positions) several "$table" || continue ;;
-            angles) several "$table" && is_angle "$table" || continue ;;
-            speeds) several "$table" speed || continue ;;
-        esac
+        for condition in $(echo "${conditions#-}" | tr , ' '); do meets "$table" "$condition" || continue 2; done
         [ "$columns" != needed ] || columns=$(echo "$needed" | tr ' ' ,)
         # Over time, where the first table is.
         there=
         for other in $(echo "$others" | tr , ' '); do [ ! -f "$over$other" ] || there="$there $over$other"; done
         [ ! -f "$over$table" ] || table=$over$table
-        case $by in
-            table | speeds) add "$figure" "$kind" "$table" '' "${there# }" ;;
+        case $per in
+            table) add "$figure" "$kind" "$table" '' "${there# }" ;;
             *) plan_speeds "$figure" "$kind" "$table" "$columns" "${there# }" ;;
         esac
     done
@@ -463,13 +472,6 @@ can_animate() {
     esac
 }
 
-# plan_forces SCRIPT: at the speeds at which there is a force at all.
-plan_forces() {
-    needed='O2x O2y A3x A3y B3x B3y O4x O4y shaking_x shaking_y'
-    plan_speeds forces "$1" reactions.dat "$(echo "$needed" | tr ' ' ,)"
-    needed=
-}
-
 # The shaking force is drawn once, with counterweights if they are known.
 plan_four_bar() {
     balance=
@@ -486,11 +488,8 @@ plan_four_bar() {
             needed=
         fi
     fi
-    have linkage.dat && can_place && add special_positions special_positions linkage.dat
     [ -z "$balance" ] || plan_balance "${over}balance.dat"
-    [ -z "$over" ] || return
-    if have reactions.dat; then
-        can_place && plan_forces forces
+    if [ -z "$over" ] && { [ -n "$balance" ] || have reactions.dat; }; then
         needed='shaking_x shaking_y'
         plan_speeds shaking_force shaking_force "${balance:-reactions.dat}" shaking_x,shaking_y
         needed=
@@ -499,12 +498,6 @@ plan_four_bar() {
 
 # The elastic response. Its strains at a gauge are drawn of all speeds too, if these are few.
 plan_response() {
-    if have response.dat && [ $linkage = four_bar ] && several response.dat && can_place; then
-        needed='ux uy'
-        ask 'distinct point' response.dat | grep -qv : && plan_speeds deviation deviation response.dat ux,uy
-        needed='ux uy rotation'
-        plan_speeds deformed_linkage deformed_linkage response.dat ux,uy
-    fi
     needed='axial_strain bending_strain stress'
     if have strains.dat && several strains.dat speed && [ "$(ask 'distinct speed' strains.dat | wc -l)" -le 8 ]; then
         for gauge in $(ask 'distinct gauge' strains.dat); do
@@ -525,19 +518,11 @@ plan_response() {
 plan_animations() {
     can_animate || fail 'this gnuplot lacks the terminal pngcairo or gif, which animations need'
     have shapes.dat && animate=animate_mode plan_modes
+    plan_table
     needed=crank
     if [ $linkage != four_bar ]; then
         if [ -n "$cycle" ] && have "$cycle" && several "$cycle" && can_place; then add linkage animate_cycle "$cycle"; fi
-        needed=
-        if have motion.dat && several motion.dat time && can_place; then add motion animate_linkage_motion motion.dat; fi
         return
-    fi
-    if [ -z "$over" ] && have reactions.dat && [ "$(ask 'distinct crank' reactions.dat | wc -l)" -ge 12 ] && can_place; then
-        plan_forces animate_forces
-    fi
-    if have response.dat && [ "$(ask 'distinct crank' response.dat | wc -l)" -ge 12 ] && can_place; then
-        needed='ux uy rotation'
-        plan_speeds deformed_linkage animate_response response.dat ux,uy
     fi
     points=
     have points.dat && points=points.dat
@@ -547,7 +532,6 @@ plan_animations() {
         return
     fi
     can_place || return
-    needed=crank
     add linkage animate_linkage kinematics.dat '' "$points"
     needed=
     have motion.dat && add motion animate_motion motion.dat '' "$points"
