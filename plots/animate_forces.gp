@@ -2,16 +2,8 @@
 
 eval smaller(0.65)
 
-call plots."linkage.gp" ""
-load keep("forces", table, sprintf("forces %s 72", asked_speed))          # columns: see tables.awk
+shown = 72
 load plots."force_arrows.gp"
-set print angles
-do for [k=1:|$forces|] { print word($forces[k], 1) }
-unset print
-load poses_as("places")
-eval pivots
-poses = "$places"
-eval extent
 size = 0.055*span
 call plots."bodies.gp" sprintf("%g", 0.018*span)
 eval scale_of_forces

@@ -10,7 +10,7 @@ do for [angle in answer(table, sprintf("positions %.12g %d", speed, want_positio
 unset print
 load poses_as("poses")
 eval pivots
-load keep("moved", table, sprintf("displacements %.12g %d %s", speed, want_positions, link_ends.listed_names(1)))
+load keep("moved", table, sprintf("positions %.12g %d %s", speed, want_positions, link_ends.listed_names(1)))
 positions_drawn = |$moved|
 poses = "$poses"
 eval extent

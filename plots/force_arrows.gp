@@ -1,7 +1,16 @@
-# The forces at the pins and the shaking force as arrows. After linkage.gp and `load keep("forces", …)`.
+# The forces at the pins and the shaking force as arrows, and the linkage where they are: `shown` positions, rows of $forces and $places.
 
 # Of the ground on the crank at O2, of the crank and of the follower on the coupler at A and B, of the ground on the follower at O4:
 # numbers of columns of $forces, the colours of the arrows, and where they begin.
+call plots."linkage.gp" ""
+load keep("forces", table, sprintf("positions %s %d O2x O2y A3x A3y B3x B3y O4x O4y shaking_x shaking_y", asked_speed, shown))
+set print angles
+do for [k=1:|$forces|] { print word($forces[k], 1) }
+unset print
+load poses_as("places")
+eval pivots
+poses = "$places"
+eval extent
 pin_ink = "#0060A8"
 shaking_ink = "#C04000"
 force_at(row, k) = word(row, 2*k) + {0, 1}*word(row, 2*k + 1)

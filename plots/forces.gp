@@ -1,15 +1,7 @@
 # The forces at the pins and the shaking force over a turn, at one speed: the linkage at several positions, arrows to one scale.
 
-call plots."linkage.gp" ""
-load keep("forces", table, sprintf("forces %s 8", asked_speed))           # columns: see tables.awk
+shown = 8
 load plots."force_arrows.gp"
-set print angles
-do for [k=1:|$forces|] { print word($forces[k], 1) }
-unset print
-load poses_as("places")
-eval pivots
-poses = "$places"
-eval extent
 eval scale_of_forces
 room = 0.05*span
 size = 0.06*span

@@ -27,15 +27,10 @@
 #   want="path 20 xG yG"           these columns at speed 20 as a path that is smooth where rows are no farther apart than 15
 #                                  degrees of the crank: x, y, crank, 1 at a row of the table
 #   want="path 20 axial transverse A crank"     the same of the rows of pin A and link crank
-#   want="forces 20 8"             the forces of reactions.dat at speed 20, at eight positions at most (six, if these
-#                                  divide a turn better): crank, then x
-#                                  and y of those on the crank at O2, on the coupler at A and B, on the follower at O4, and the
-#                                  shaking force; without a number, all positions
 #   want="critical 5 60"           from frequencies.dat over a whole turn: mode, harmonic up to the twentieth, and speed, at which this
 #                                  multiple of the crank's speed is the mode's mean frequency; speeds in this range, from the highest down
-#   want="positions 20 8"           crank angles of response.dat at speed 20 with all digits, eight at most (six, if these divide a turn
-#                                  better), or all (0)
-#   want="displacements 20 8 A:crank B:coupler"    there, of these points: crank, then ux, uy and the rotation in radians of each
+#   want="positions 20 8 O2x O2y"  at speed 20, at eight positions at most (six, if these divide a turn better), or all (0): the crank angle with
+#                                  all digits, then these columns, or of points, A:crank, ux, uy and the rotation in radians
 #   want="branches 20"             the branches of branches.dat at speed 20, a datablock a branch, named by its number, an empty line where
 #                                  rows have failed: crank, frequency, 1 where a mark is drawn
 #   want="joints 20"               of reactions.dat with a row a pin and link at speed 20, a line a joint with a force: its number among them
@@ -227,17 +222,13 @@ asked[1] == "reach" || (asked[1] ~ /^shapes/ && same($at["speed"], asked[2])) {
     if ($at["s"] + 0 > longest) longest = $at["s"] + 0
 }
 
-asked[1] == "forces" && same($at["speed"], asked[2]) {
-    forces++
-    crank[forces] = $at["crank"] + 0
-    value[forces] = $at["crank"]
-    for (i = 3; i <= 12; i++) value[forces] = value[forces] " " $at[word_of("speed crank O2x O2y A3x A3y B3x B3y O4x O4y shaking_x shaking_y", i)]
-}
-
-(asked[1] == "displacements" || asked[1] == "positions") && same($at["speed"], asked[2]) {
+asked[1] == "positions" && same($at["speed"], asked[2]) {
     if (!positions || $at["crank"] != crank[positions]) crank[++positions] = $at["crank"]
-    for (i = 1; i <= 3; i++) value[positions, $at["point"], i] = $at[word_of("ux uy rotation", i)] * \
-        (i == 3 && unit[at["rotation"]] == "deg" ? 3.14159265358979 / 180 : 1)
+    for (i = 4; i <= n_asked; i++) {
+        if (asked[i] in at) value[positions, i] = $at[asked[i]]
+        else if ($at["point"] == asked[i]) value[positions, i] = $at["ux"] " " $at["uy"] " " \
+            $at["rotation"] * (unit[at["rotation"]] == "deg" ? 3.14159265358979 / 180 : 1)
+    }
 }
 
 # A crank angle that closes the turn is the first one again.
@@ -339,11 +330,10 @@ END {
     if (asked[1] == "shapes_found") for (i = 1; i <= shapes; i++) { split(key_of[i], part, " "); print i - 1, part[1], part[2] }
     if (asked[1] == "reach") print_reach()
     if (asked[1] == "path") print_path()
-    if (asked[1] == "forces") print_forces()
     if (asked[1] == "arrows") print_arrows()
     if (asked[1] == "change") print_change()
     if (asked[1] == "critical") print_critical()
-    if (asked[1] == "displacements" || asked[1] == "positions") print_displacements()
+    if (asked[1] == "positions") print_positions()
     if (asked[1] == "varied") {
         for (i = 1; i <= n_columns && name[i] !~ /^(speed|crank|time|branch|from|part)$/; i++) {
             if (name[i] == "rows" && name[i + 1] == "failed") break
@@ -557,13 +547,11 @@ function print_arrows(    i, j, k, low, high, span, longest, size, along, across
     }
 }
 
-function print_displacements(    n, k, i, j, m, line) {
+function print_positions(    n, i, m, line) {
     n = chosen(positions, asked[3])
     for (m = 1; m <= n; m++) {
-        k = choice[m]
-        line = asked[1] == "positions" ? sprintf("%.17g", crank[k]) : crank[k] + 0
-        for (i = 4; i <= n_asked; i++)
-            for (j = 1; j <= 3; j++) line = line " " ((k, asked[i], j) in value ? value[k, asked[i], j] : "NaN")
+        line = sprintf("%.17g", crank[choice[m]])
+        for (i = 4; i <= n_asked; i++) line = line " " ((choice[m], i) in value ? value[choice[m], i] : "NaN NaN NaN")
         print line
     }
 }
@@ -603,13 +591,6 @@ function critical_between(i, k, turns,    below, above, from, to) {
     above = total[k + 1, i] / counted[k + 1] - turns * speed[k + 1]
     if (below < 0 || above >= 0) return -1
     return speed[k] + below / (below - above) * (speed[k + 1] - speed[k])
-}
-
-function word_of(list, i,    part) { split(list, part, " "); return part[i] }
-
-function print_forces(    n, i) {
-    n = chosen(forces, asked[3])
-    for (i = 1; i <= n; i++) print value[choice[i]]
 }
 
 # The last row of a whole turn is the first again; a turn is divided by 8 or by 6, so that the angles are even.
