@@ -6,10 +6,7 @@ eval smaller(0.65)
 low = exists("home_low") && home_low > low_crank ? home_low : low_crank
 high = exists("home_low") && home_high < high_crank ? home_high : high_crank
 call plots."linkage.gp" other
-set print angles
-print low
-unset print
-load poses_as("lowest")
+eval pose_at("lowest", low)
 eval pivots
 eval middle_of_coupler
 

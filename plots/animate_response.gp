@@ -2,10 +2,7 @@
 
 eval smaller(0.65)
 
-call plots."linkage.gp" table
-share = 0.125
 want_positions = 90
-call plots."bodies.gp" "1"
 load plots."deformed.gp"
 eval include_moved(1, positions_drawn)
 size = 0.055*span

@@ -4,10 +4,7 @@
 low = low_crank
 high = high_crank
 call plots."linkage.gp" table
-set print angles
-print sprintf("%.17g", crank)
-unset print
-load poses_as("there")
+eval pose_at("there", crank)
 eval pivots
 shown_row = $there[1]
 

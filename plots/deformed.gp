@@ -1,9 +1,11 @@
-# Links as they bend in the elastic response, and the displacements of their points. The script has loaded drawing.gp, asked the
-# table response.dat for its facts, called linkage.gp with it, and set speed, share, the largest displacement drawn as a share of
-# the mechanism's larger side, and want_positions: 8 (six, if these divide a turn better) or so, or 0 for all.
-# Then $moved has a row a position: crank angle, then ux, uy and the rotation of both ends of crank, coupler and follower, and of
-# the points of the table; $poses has the linkage with rigid links there; and `magnified` is the round factor of displacements.
+# Links as they bend in the elastic response, and the displacements of their points, by response.dat. The script has set want_positions: 8 (six,
+# if these divide a turn better) or so, or 0 for all. Then $moved has a row a position: crank angle, then ux, uy and the rotation of
+# both ends of crank, coupler and follower, and of the points of the table; $poses has the linkage with rigid links there; and `magnified` is
+# the round factor of displacements, the largest of which is drawn as `share` of the mechanism's larger side.
 
+share = 0.125
+call plots."linkage.gp" table
+call plots."bodies.gp" "1"
 listed_names(k) = k > points ? "" : " ".word(point_names, k).listed_names(k + 1)
 set print angles
 do for [angle in answer(table, sprintf("positions %.12g %d", speed, want_positions))] { print angle }

@@ -1,9 +1,6 @@
 # The linkage as it bends in the elastic response at one speed: several positions of a turn, displacements made larger.
 
-call plots."linkage.gp" table
-share = 0.125
 want_positions = 8
-call plots."bodies.gp" "1"
 load plots."deformed.gp"
 eval include_moved(1, positions_drawn)
 room = 0.05*span

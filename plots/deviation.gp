@@ -1,9 +1,6 @@
 # The paths of points at one speed, with rigid and with elastic links, deviations made larger, and the mechanism at one position.
 
-call plots."linkage.gp" table
-share = 0.125
 want_positions = 0
-call plots."bodies.gp" "1"
 load plots."deformed.gp"
 # The position nearest to 60 degrees.
 shown_row = $poses[1]

@@ -9,6 +9,7 @@ angles = out.".angles"
 I = {0, 1}
 poses_as(block) = sprintf("< sh %s four_bar %s %s %s %s", quoted(plots."places.sh"), quoted(angles.".d"), block, quoted(angles), \
     table_of_poses eq "" ? "" : quoted(table_of_poses))
+pose_at(block, crank) = sprintf("set print angles; print '%.17g'; unset print; load poses_as('%s')", crank, block)     # of one, to be evaluated
 # Once a block is there: the pivots in parts.
 pivots = "O2_x = real(O2); O2_y = imag(O2); O4_x = real(O4); O4_y = imag(O4)"
 

@@ -11,10 +11,7 @@ nodes = distributed ? "$nodes" : "$masses"
 if (other ne "") { load keep("nodes", other, sprintf("nodes %.12g", crank)) }
 if (distributed && other eq "") {
     call plots."linkage.gp" ""
-    set print angles
-    print sprintf("%.17g", crank)
-    unset print
-    load poses_as("there")
+    eval pose_at("there", crank)
     set print $nodes
     do for [k=1:3] {
         print sprintf("0 %.12g %.12g 0 0 0 1 0 0 0 0", k == 1 ? real(O2) : word($there[1], 2*k - 2) + 0, \
