@@ -2,7 +2,7 @@
 # speed and parts, those of its swing that are drawn, set.
 
 load plots."mode_size.gp"
-load keep("shape", table, sprintf("shape %d %.12g %.12g", mode, crank, speed))     # columns: see tables.awk
+load keep("shape", table, sprintf("shapes %.12g 0 %.12g %d", speed, crank, mode))     # columns: see tables.awk
 if (|$shape| == 0) {
     print sprintf("%s: no mode %d at crank %.10g, speed %.10g", table, mode, crank, speed)
     exit status 1

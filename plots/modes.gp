@@ -5,8 +5,10 @@ load plots."mode_size.gp"
 longest_side = side_of_modes("all")
 share_drawn = share*longest_side/high_s             # of the longest link
 shapes_file = out.".shapes"
-load keep("found", table, sprintf("shapes_found %s", asked_speed))        # columns: see tables.awk
 system(ask(table, sprintf("shapes %s %.9g", asked_speed, share_drawn))." > ".quoted(shapes_file))
+# Of every index its number, mode and crank.
+load "< awk ".quoted("BEGIN { print \"$found << EOD\" } NF && $7 \" \" $8 != last { print n++, $7, $8; last = $7 \" \" $8 } END { print \"EOD\" }").\
+    " ".quoted(shapes_file)
 load keep("reach_of_modes", table, sprintf("reach all %.9g", share_drawn))
 stats $reach_of_modes using 1 name "across" nooutput
 stats $reach_of_modes using 2 name "up" nooutput

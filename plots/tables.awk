@@ -13,12 +13,9 @@
 #                                  vector along the link, index in the link, index of its last, element that begins here
 #                                  and its length, unit vector to a place free for a label
 #   want="masses 60 20"            the same of the lumped masses of inertia.dat at crank 60, speed 20; elements are 0
-#   want="shape 1 60 20"           mode 1 of shapes.dat at crank 60, speed 20, drawn finer: x, y, ux, uy, 1 at a link's
-#                                  ends, frequency
-#   want="shapes 20 0.15"          all modes of shapes.dat at speed 20 as above, an index a mode at a crank angle; displacements
-#                                  are made so large that the largest of a mode is that share of the longest link; after
-#                                  them mode and crank
-#   want="shapes_found 20"         a line a mode of these: its index, mode, crank
+#   want="shapes 20 0.15 60 1"     mode 1 of shapes.dat at speed 20, crank 60, or all without these, drawn finer, an index a mode at a crank
+#                                  angle: x, y, ux, uy, 1 at a link's ends, frequency, mode, crank; displacements are made so large that the
+#                                  largest of a mode is that share of the longest link (0: as they are)
 #   want="reach 60 0.15"           the least and the greatest x and y, two lines, of all these modes at crank 60, at any speed,
 #                                  with their displacements and with the opposite ones; without a crank, at all
 #   want="arrows 60 20"            the inertia forces of inertia.dat there, those of masses at one place as one: x, y, Fx, Fy
@@ -209,7 +206,8 @@ asked[1] == "band" {
 }
 
 # Twice through a table would be slower than to keep what has been read.
-asked[1] == "reach" || (asked[1] ~ /^shapes/ && same($at["speed"], asked[2])) {
+asked[1] == "reach" || asked[1] == "shapes" && same($at["speed"], asked[2]) && \
+    (n_asked < 5 || same($at["crank"], asked[4]) && same($at["mode"], asked[5])) {
     key = $at["mode"] " " short($at["crank"]) " " ($at["speed"] + 0)
     if (key != key_of[shapes]) key_of[++shapes] = key
     kept++
@@ -260,14 +258,6 @@ asked[1] == "arrows" && same($at["crank"], asked[2]) && same($at["speed"], asked
     if (i > arrows) { arrows++; arrow[1, i] = $at["x"] + 0; arrow[2, i] = $at["y"] + 0 }
     arrow[3, i] += $at["Fx"]
     arrow[4, i] += $at["Fy"]
-}
-
-asked[1] == "shape" && same($at["mode"], asked[2]) && same($at["crank"], asked[3]) && same($at["speed"], asked[4]) {
-    if ($at["link"] != link_drawn) print_link()
-    link_drawn = $at["link"]
-    frequency = $at["frequency"]
-    points++
-    for (i = 1; i <= 4; i++) shape[i, points] = $at[i == 1 ? "x" : i == 2 ? "y" : i == 3 ? "ux" : "uy"]
 }
 
 asked[1] == "nodes" && same($at["crank"], asked[2]) {
@@ -325,9 +315,7 @@ END {
     if (asked[1] == "positive" && least != "") print pointed(sprintf("%.12g", least)), pointed(sprintf("%.12g", greatest))
     if (asked[1] == "branches") print_branches()
     if (asked[1] == "events") print_events()
-    if (asked[1] == "shape") print_link()
     if (asked[1] == "shapes") print_shapes()
-    if (asked[1] == "shapes_found") for (i = 1; i <= shapes; i++) { split(key_of[i], part, " "); print i - 1, part[1], part[2] }
     if (asked[1] == "reach") print_reach()
     if (asked[1] == "path") print_path()
     if (asked[1] == "arrows") print_arrows()
@@ -510,7 +498,7 @@ function print_part(from, to,    i, k, j, first, t) {
         for (k = 0; k < (j < to && to - from > 2 ? 4 : 1); k++) {
             t = j + k / 4 - first
             for (i = 1; i <= 4; i++) printf "%.9g ", k == 0 ? shape[i, j] : cubic(i, first, t)
-            print k == 0 && (j == 1 || j == points), frequency tail
+            print k == 0 && (j == 1 || j == points), frequency, tail
         }
     }
 }
@@ -614,14 +602,14 @@ function print_shapes(    k, i) {
         if (k > 1 && of_shape[k] != of_shape[k - 1]) print ""
         points++
         frequency = frequency_at[k]
-        for (i = 1; i <= 4; i++) shape[i, points] = i > 2 ? scale_of(of_shape[k]) * value[i, k] : value[i, k]
+        for (i = 1; i <= 4; i++) shape[i, points] = (i > 2 && asked[3] > 0 ? scale_of(of_shape[k]) : 1) * value[i, k]
     }
     end_link(kept)
 }
 
 function end_link(k,    part) {
     split(key_of[of_shape[k]], part, " ")
-    tail = " " part[1] " " part[2]
+    tail = part[1] " " part[2]
     print_link()
 }
 

@@ -247,7 +247,7 @@ modes_of_linkages() {
 
 # A curve drawn through rows of the table meets its corners, each of which is there twice, and does not swing out beside them.
 square_corners() {
-  awk -v want="shape 3 0 0" -f plots/quoted.awk -f plots/tables.awk <"$scratch/out/jansen_frames/shapes.dat" >"$scratch/curves"
+  awk -v want="shapes 0 0 0 3" -f plots/quoted.awk -f plots/tables.awk <"$scratch/out/jansen_frames/shapes.dat" >"$scratch/curves"
   awk '!/^#/ && $1 == 0 && $2 == 0 && $3 == 3 && $5 == "shank" { if (rows++ && $6 == s) printf "%.9g %.9g %.9g %.9g\n", $7, $8, $9, $10; s = $6 }' \
     "$scratch/out/jansen_frames/shapes.dat" >"$scratch/corners"
   [ "$(wc -l <"$scratch/corners")" -eq 2 ] || { cat "$scratch/corners"; return 1; }
