@@ -140,20 +140,12 @@ asked[1] == "rows" {
     }
 }
 
-asked[1] == "range" {
+asked[1] ~ /^(range|positive)$/ {
     for (i = 2; i <= n_asked; i++) {
-        if (!is_number($at[asked[i]])) odd = 1
         number = $at[asked[i]] + 0
+        if (asked[1] == "positive" && number <= 0) continue
         if (least == "" || number < least) least = number
         if (greatest == "" || number > greatest) greatest = number
-    }
-}
-
-asked[1] == "positive" {
-    for (i = 2; i <= n_asked; i++) {
-        number = $at[asked[i]] + 0
-        if (number > 0 && (least == "" || number < least)) least = number
-        if (number > 0 && (greatest == "" || number > greatest)) greatest = number
     }
 }
 
@@ -311,8 +303,7 @@ END {
     if (asked[1] == "facts") print_facts()
     if (asked[1] == "limits") print_limits()
     if (asked[1] == "unit") print unit[at[asked[2]]]
-    if (asked[1] == "range") print (odd ? "NaN" : pointed(sprintf("%.12g", least))), pointed(sprintf("%.12g", greatest))
-    if (asked[1] == "positive" && least != "") print pointed(sprintf("%.12g", least)), pointed(sprintf("%.12g", greatest))
+    if (asked[1] ~ /^(range|positive)$/ && least != "") print pointed(sprintf("%.12g", least)), pointed(sprintf("%.12g", greatest))
     if (asked[1] == "branches") print_branches()
     if (asked[1] == "events") print_events()
     if (asked[1] == "shapes") print_shapes()
