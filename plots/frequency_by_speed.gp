@@ -25,6 +25,7 @@ also_reached(panel) = panel == 2 ? 0 : NaN
 before_panel(panel) = panel == 2 ? zero_line : ""
 share_of(panel) = panel == 1 ? 1.28 : 0.72
 height_of(n) = 0.5*(995 - lower)
+planned_height(panel) = panel == 1 ? 500 : 280
 panel_gap = 30.0
 in_layers = 1
 zeros_kept = 1

@@ -303,8 +303,9 @@ has_curves = 1                                      # they are drawn with line, 
 least_rows = 0
 height_of(n) = n == 1 ? 700 : n == 2 ? 400 : 330
 share_of(panel) = 1.0                               # of the height
+planned_height(panel) = full_height                 # about, for the room that ticks and titles take
 panel_gap = 35
-pen_of(k) = k
+pen_of(k) = 1 + (k - 1)%16
 zeros_kept = 0
 marks_shifted = 1
 in_layers = 0
