@@ -7,7 +7,6 @@ low = exists("home_low") && home_low > low_crank ? home_low : low_crank
 high = exists("home_low") && home_high < high_crank ? home_high : high_crank
 call plots."linkage.gp" other
 eval pose_at("lowest", low)
-eval pivots
 eval middle_of_coupler
 
 # Evenly in the crank's angle, or slower towards both ends of its way.

@@ -19,7 +19,6 @@ set print angles
 do for [k=1:shown] { print sprintf("%.17g %s", crank[k], branch[k]) }
 unset print
 load poses_as("poses")
-eval pivots
 
 note = slower == 1 ? "" : sprintf("slowed down %g times", slower)
 caption(n) = sprintf("t = %.2f %s,  ω₂ = %.1f %s", seconds[n], unit_time, rates[n], unit_omega2)

@@ -5,7 +5,6 @@ low = low_crank
 high = high_crank
 call plots."linkage.gp" table
 eval pose_at("there", crank)
-eval pivots
 shown_row = $there[1]
 
 # The paths, over a turn or over the range of the table, with small dots, large ones, and angles beside some of these.

@@ -11,7 +11,6 @@ set print angles
 do for [angle in answer(table, sprintf("positions %.12g %d", speed, want_positions))] { print angle }
 unset print
 load poses_as("poses")
-eval pivots
 load keep("moved", table, sprintf("positions %.12g %d %s", speed, want_positions, link_ends.listed_names(1)))
 positions_drawn = |$moved|
 poses = "$poses"

@@ -294,6 +294,31 @@ if (kind eq "frequencies") {
     pen_of(k) = int(word(drawn, k)[2:*])
     least_entries = 1
 }
+# The estimated relative errors of all frequencies of one speed; all speeds share one axis, of whole decades, two at least. Zero, which has no
+# place on such an axis, lies on its lower edge.
+if (kind eq "errors") {
+    headline = sprintf("Estimated errors of the natural frequencies %s, %s", against_position(unit_crank), moment)
+    drawn = ""
+    shown = ""
+    do for [name in columns] { if (is_numbered(name, "error")) { drawn = drawn." ".name; shown = shown." 'mode ".name[6:*]."'" } }
+    zeros = word(answer(table, "range".drawn), 1) + 0.0 <= 0
+    note = zeros ? "on the lower edge: no error" : ""
+    positive = answer(table, "positive".drawn)      # empty: all are zero
+    bottom = floor(log10(positive eq "" ? 1e-16 : word(positive, 1) + 0.0)) - zeros
+    top = larger(bottom + 2, ceil(log10(positive eq "" ? 1e-16 : word(positive, 2) + 0.0)))
+    above_zero(value) = value > 0 ? value : 10.0**bottom
+    errors_from(k) = k > words(drawn) ? "" : sprintf(" above_zero(field('%s'))", word(drawn, k)).errors_from(k + 1)
+    added = panel_of("estimated relative error", "", errors_from(1), shown)
+    is_logarithmic(panel) = 1
+    before_panel(panel) = "set yrange [10.0**bottom:10.0**top]; set format y '10^{%T}'; ".\
+        "set ytics 10.0**ceil((top - bottom)/12.0); set mytics top - bottom <= 12 ? 10 : 1"
+    tick_room_of(panel) = 80
+    height_of(n) = 875 - lower
+    pen_of(k) = int(word(drawn, k)[6:*])
+    in_layers = 1
+    least_entries = 1
+    legend_entries = words(drawn)
+}
 if (declared == 0) { load plots.kind.".gp" }
 if (declared > 0) {
     panels = declared

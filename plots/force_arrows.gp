@@ -8,7 +8,6 @@ set print angles
 do for [k=1:|$forces|] { print word($forces[k], 1) }
 unset print
 load poses_as("places")
-eval pivots
 poses = "$places"
 eval extent
 pin_ink = "#0060A8"

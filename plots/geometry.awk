@@ -36,6 +36,7 @@ FILENAME ~ /poses$/ {
 
 !begun++ {
     print_springs()
+    print "O2_x = real(O2); O2_y = imag(O2); O4_x = real(O4); O4_y = imag(O4)"
     printf "hooks = %d; array hook_x[%d]; array hook_y[%d]; array hook_turn[%d]\n", hooks, hooks + 1, hooks + 1, hooks + 1
     for (k = 1; k <= hooks; k++)
         printf "hook_x[%d] = %.9g; hook_y[%d] = %.9g; hook_turn[%d] = %d\n", k, hook_x[k], k, hook_y[k], k, hook_turn(k)

@@ -2,7 +2,7 @@
 #   call "linkage.gp" [points.dat or response.dat]
 # Then blocks of poses are asked for: angles are printed to the file `angles`, a position a line (see places.sh), and
 #   load poses_as("block")
-# sets the block, the pivots O2 and O4, whether the crank turns fully, and the links of the points.
+# sets the block, the pivots O2 and O4, in parts O2_x to O4_y, whether the crank turns fully, and the links of the points.
 
 table_of_poses = ARG1
 angles = out.".angles"
@@ -10,8 +10,6 @@ I = {0, 1}
 poses_as(block) = sprintf("< sh %s four_bar %s %s %s %s", quoted(plots."places.sh"), quoted(angles.".d"), block, quoted(angles), \
     table_of_poses eq "" ? "" : quoted(table_of_poses))
 pose_at(block, crank) = sprintf("set print angles; print '%.17g'; unset print; load poses_as('%s')", crank, block)     # of one, to be evaluated
-# Once a block is there: the pivots in parts.
-pivots = "O2_x = real(O2); O2_y = imag(O2); O4_x = real(O4); O4_y = imag(O4)"
 
 point_names = table_of_poses eq "" ? "" : words_of(ask(table_of_poses, "distinct point")." | grep -v :")
 points = words(point_names)

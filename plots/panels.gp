@@ -42,8 +42,7 @@ tick_room = 0
 lines = 1
 do for [k=1:n_kept] {
     panel = int(word(kept, k))
-    tick_room = larger(tick_room, is_logarithmic(panel) && low_of[panel] > 0 ? log_width(low_of[panel], high_of[panel]) \
-        : value_width(low_of[panel], high_of[panel], planned_height(panel)))
+    tick_room = larger(tick_room, tick_room_of(panel))
     lines = larger(lines, planned_lines(title_of(panel), planned_height(panel)))
 }
 eval legend_page(125 + lower + n_kept*(full_height + panel_gap) - panel_gap, legend_entries, longest, tick_room, lines)

@@ -21,7 +21,6 @@ set print angles
 do for [k=1:n] { print of_place(k, 3)." ".of_place(k, 1) }
 unset print
 load poses_as("places")
-eval pivots
 poses = "$places"
 eval extent
 call plots."bodies.gp" sprintf("%g", 0.022*span)

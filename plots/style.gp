@@ -304,6 +304,8 @@ least_rows = 0
 height_of(n) = n == 1 ? 700 : n == 2 ? 400 : 330
 share_of(panel) = 1.0                               # of the height
 planned_height(panel) = full_height                 # about, for the room that ticks and titles take
+tick_room_of(panel) = is_logarithmic(panel) && low_of[panel] > 0 ? log_width(low_of[panel], high_of[panel]) \
+    : value_width(low_of[panel], high_of[panel], planned_height(panel))
 panel_gap = 35
 pen_of(k) = 1 + (k - 1)%16
 zeros_kept = 0
