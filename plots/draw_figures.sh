@@ -444,7 +444,7 @@ plan_kinematics() {
         needed="${of#*:}3 ${of#*:}4"
         case $of in
             angles*) needed="$needed transmission_angle" ;;
-            *) [ -n "$(ask "moving speed $needed" kinematics.dat)" ] || continue ;;
+            *) complete "kinematics_${of%:*}" kinematics.dat && [ -n "$(ask "moving speed $needed" kinematics.dat)" ] || continue ;;
         esac
         add "kinematics_${of%:*}" kinematics "${over}kinematics.dat" '' "${of%:*}"
     done
