@@ -404,12 +404,19 @@ no_four_bar() {
 
 # cycle_table: a table of such a linkage with its positions.
 cycle_table() {
-    for table in pins.dat kinematics.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat bearings.dat frame.dat friction.dat; do
+    for table in pins.dat kinematics.dat drives.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat bearings.dat frame.dat friction.dat; do
         if [ -f $table ]; then
             echo $table
             return
         fi
     done
+}
+
+# plan_drive_locus: drive.dat is the older name of a table of drives, and of four-bars another one.
+plan_drive_locus() {
+    drives=drives.dat
+    [ -f $drives ] || [ $linkage = four_bar ] || drives=drive.dat
+    have sizing.dat && [ -z "$over" ] && have $drives && add drive_locus drive_locus sizing.dat '' $drives
 }
 
 # A linkage that is no four-bar. A structure has one position: nothing is drawn over it.
@@ -420,7 +427,6 @@ plan_cycle() {
         [ "${format:-png}" = png ] && can_animate && add linkage animate_cycle "$cycle"
     fi
     needed=
-    have sizing.dat && [ -z "$over" ] && have drive.dat && add drive_locus drive_locus sizing.dat '' drive.dat
     # Places of a slider have no directions, and by a law a force comes to one of them more than once.
     if [ -n "$cycle" ] && [ -z "$over" ] && is_angle "$cycle"; then
         needed='shaking_x shaking_y'
@@ -606,6 +612,7 @@ else
         have kinematics.dat && plan_kinematics
         plan_four_bar
     fi
+    plan_drive_locus
     plan_response
     plan_table
 fi
