@@ -11,7 +11,7 @@ module elastic_linkages
   use beam_mesh, only: beam_t
   use cut_ways, only: carried_t, cut_way_t, find_ways, fixed_lumps, nearest_way
   use kinds, only: wp
-  use linkages, only: drives_angle, drives_length, drives_slider, forced_place_t, &
+  use linkages, only: drive_of_angle, drive_of_length, drive_of_slider, forced_place_t, &
     is_dyad_linkage, linkage_t, lump_t
   use pose_types, only: pins_of_body
   use turning_ends, only: add_end, join_ends, new_turning_ends, number_of, number_ends, &
@@ -178,7 +178,7 @@ contains
     end associate
     do i = 1, size(linkage%drives)
       associate (drive => linkage%drives(i))
-        if (drive%kind /= drives_slider .or. drive%is_free) cycle
+        if (drive%kind /= drive_of_slider .or. drive%is_free) cycle
         if (linkage%sliders(drive%slider)%body == 0) &
           elastic%is_fixed(linkage%sliders(drive%slider)%pin) = .true.
       end associate
@@ -211,7 +211,7 @@ contains
         elastic%body(n) = b
         elastic%place(:, n) = 0.0_wp
         elastic%axis(:, n) = [1.0_wp, 0.0_wp]
-        if (any(linkage%drives%kind == drives_length .and. linkage%drives%body == b)) &
+        if (any(linkage%drives%kind == drive_of_length .and. linkage%drives%body == b)) &
           elastic%changes_lengths = .true.
         cycle
       end if
@@ -328,7 +328,7 @@ contains
     end do
     do i = 1, size(linkage%drives)
       associate (drive => linkage%drives(i))
-        if (drive%kind /= drives_angle .or. drive%is_free) cycle
+        if (drive%kind /= drive_of_angle .or. drive%is_free) cycle
         n = shared_pin(linkage, drive%body, drive%against)
         call join_ends(ends, [drive%body, drive%against], [n, n])
       end associate

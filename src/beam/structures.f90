@@ -1,5 +1,5 @@
-!> The structure that vibrates at a position: a linkage whose links bend as beams, with its driven
-!! link clamped.
+!> The structure that vibrates at a position: a linkage whose links bend as beams. Links of drives
+!! that are not free are clamped to what they turn against.
 module structures
   use beam_mesh, only: beam_mesh_t, beam_t, new_beam_mesh
   use elastic_linkages, only: elastic_linkage_t

@@ -3,7 +3,7 @@
 !! What hangs on their links does not make them others: further pins, links welded on.
 module four_bar_loops
   use kinds, only: wp
-  use linkages, only: drives_angle, groups_carried, groups_dyad, groups_turned, linkage_t
+  use linkages, only: drive_of_angle, group_carried, group_dyad, group_turned, linkage_t
   implicit none (type, external)
   private
 
@@ -30,15 +30,15 @@ contains
 
     if (.not. linkage%has_crank .or. size(linkage%drives) /= 1 .or. size(linkage%sliders) > 0) &
       return
-    if (linkage%drives(1)%kind /= drives_angle .or. linkage%drives(1)%against /= 0) return
+    if (linkage%drives(1)%kind /= drive_of_angle .or. linkage%drives(1)%against /= 0) return
     if (allocated(linkage%redundancies)) then
       if (size(linkage%redundancies) > 0) return
     end if
-    if (count(linkage%groups%kind == groups_dyad) /= 1) return
+    if (count(linkage%groups%kind == group_dyad) /= 1) return
     do i = 1, size(linkage%groups)
-      if (all(linkage%groups(i)%kind /= [groups_dyad, groups_carried, groups_turned])) return
+      if (all(linkage%groups(i)%kind /= [group_dyad, group_carried, group_turned])) return
     end do
-    found%dyad = findloc(linkage%groups%kind, groups_dyad, dim=1)
+    found%dyad = findloc(linkage%groups%kind, group_dyad, dim=1)
     associate (dyad => linkage%groups(found%dyad))
       first = merge(2, 1, linkage%is_ground(dyad%base(1)))
       found%body = [1, dyad%body(first), dyad%body(3 - first)]

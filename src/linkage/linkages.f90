@@ -15,34 +15,44 @@ module linkages
     drawing_t, equation_t, group_t, path_t, bridge_t, shaft_t
   public :: mobility, reference_point, is_dyad_linkage, cross, normal_to, turned, &
     turned_back
-  public :: drives_nothing, drives_angle, drives_slider, drives_length
-  public :: changes_through, changes_stop, changes_branch
-  public :: demands_length, demands_angle, demands_line, demands_turn, demands_drive
-  public :: groups_dyad, groups_carried, groups_on_line, groups_through_pin, groups_two_lines, &
-    groups_cross_slide, groups_turned, groups_spanned, groups_placed, groups_by_newton, &
-    groups_driven_dyad
+  public :: drive_of_nothing, drive_of_angle, drive_of_slider, drive_of_length
+  public :: rule_through, rule_stop, rule_branch
+  public :: demand_length, demand_angle, demand_line, demand_turn, demand_drive
+  public :: group_dyad, group_carried, group_on_line, group_through_pin, group_two_lines, &
+    group_cross_slide, group_turned, group_spanned, group_placed, group_by_newton, &
+    group_driven_dyad
 
-  !> What a drive gives: the angle of a body, the place of a slider along its line, the length of a
-  !! body.
-  integer, parameter :: drives_nothing = 0, drives_angle = 1, drives_slider = 2, &
-    drives_length = 3
+  !> What a drive gives.
+  integer, parameter :: drive_of_nothing = 0 !! the first drive of a structure
+  integer, parameter :: drive_of_angle = 1   !! the angle of a body
+  integer, parameter :: drive_of_slider = 2  !! the place of a slider along its line
+  integer, parameter :: drive_of_length = 3  !! the length of a body
 
-  !> What happens at a change point: the linkage goes on smoothly; its way ends; each position is on
-  !! the side that its groups have.
-  integer, parameter :: changes_through = 1, changes_stop = 2, changes_branch = 3
+  !> What happens at a change point.
+  integer, parameter :: rule_through = 1 !! the linkage goes on smoothly
+  integer, parameter :: rule_stop = 2    !! its way ends
+  integer, parameter :: rule_branch = 3  !! each position is on the side that its groups have
 
-  !> What an equation demands.
-  integer, parameter :: demands_length = 1, demands_angle = 2, demands_line = 3, demands_turn = 4, &
-    demands_drive = 5
+  !> What an equation demands: two things of a pin of a body, one of all others.
+  integer, parameter :: demand_length = 1 !! the distance of a pin from the first pin of its body
+  integer, parameter :: demand_angle = 2  !! its direction from there
+  integer, parameter :: demand_line = 3   !! a pin on the line of a slider
+  integer, parameter :: demand_turn = 4   !! bodies that turn together
+  integer, parameter :: demand_drive = 5  !! the coordinate of a drive
 
-  !> How a group is placed: RRR; pins of a body that is placed; a body with its end on a line (RRP);
-  !! a body whose line passes through a pin (RPR); a pin on two lines (PRP); a body that does not
-  !! turn, with a pin on a line and its own line through a pin (PPR); a body whose angle is given; a
-  !! body between two pins; a pin whose place on a line is given; by iterations; RRR with driven
-  !! lengths.
-  integer, parameter :: groups_dyad = 1, groups_carried = 2, groups_on_line = 3, &
-    groups_through_pin = 4, groups_two_lines = 5, groups_cross_slide = 6, groups_turned = 7, &
-    groups_spanned = 8, groups_placed = 9, groups_by_newton = 10, groups_driven_dyad = 11
+  !> How a group is placed.
+  integer, parameter :: group_dyad = 1         !! two bodies that meet in a pin (RRR)
+  integer, parameter :: group_carried = 2      !! pins of a body that is placed
+  integer, parameter :: group_on_line = 3      !! a body with its end on a line (RRP)
+  integer, parameter :: group_through_pin = 4  !! a body whose line passes through a pin (RPR)
+  integer, parameter :: group_two_lines = 5    !! a pin on two lines (PRP)
+  integer, parameter :: group_cross_slide = 6  !! a body that does not turn, with a pin on a line
+                                               !! and its own line through a pin (PPR)
+  integer, parameter :: group_turned = 7       !! a body whose angle is given
+  integer, parameter :: group_spanned = 8      !! a body between two pins
+  integer, parameter :: group_placed = 9       !! a pin whose place on a line is given
+  integer, parameter :: group_by_newton = 10   !! by iterations
+  integer, parameter :: group_driven_dyad = 11 !! RRR with driven lengths
 
   !> A mass fixed to a body. In the axes of the body x is along it and y to the left, looking from
   !! its first pin to its last.
@@ -121,8 +131,7 @@ module linkages
 
   !> An input. Its coordinate is `ratio*c + phase` with the coordinate c of the first one.
   type :: drive_t
-    integer :: kind = drives_angle    !! one of the drives_… constants; drives_nothing of the first
-                                      !! one of a structure
+    integer :: kind = drive_of_angle  !! one of the drive_of_… constants
     integer :: body = 0               !! that turns, or whose length changes
     integer :: against = 0            !! body from which its angle is measured; 0: the ground
     integer :: slider = 0             !! that is moved
@@ -141,22 +150,20 @@ module linkages
                                         !! allocated: none does
   end type drawing_t
 
-  !> What bodies, sliders, turns and drives demand. A pin of a body demands two things:
-  !! `demands_length`, its distance from the first pin, and `demands_angle`, its direction from
-  !! there.
+  !> What bodies, sliders, turns and drives demand.
   type :: equation_t
-    integer :: kind = 0              !! one of the demands_… constants
+    integer :: kind = 0              !! one of the demand_… constants
     integer :: body = 0              !! of a pin of a body
     integer :: pin = 0               !! the same
     real(wp) :: place(2) = 0.0_wp    !! of that pin, from the first one, in the axes of the body [m]
     integer :: number = 0            !! of the slider, turn or drive
   end type equation_t
 
-  !> Pins and bodies that are placed together. Those of `groups_dyad` are two bodies that meet in a
-  !! pin, each attached to a pin that is placed before; those of `groups_carried` are pins of a body
+  !> Pins and bodies that are placed together. Those of `group_dyad` are two bodies that meet in a
+  !! pin, each attached to a pin that is placed before; those of `group_carried` are pins of a body
   !! placed before.
   type :: group_t
-    integer :: kind = groups_dyad  !! one of the groups_… constants
+    integer :: kind = group_dyad  !! one of the group_… constants
     integer :: base(2) = 0         !! pins that carry it
     integer :: body(2) = 0         !! bodies from each base to the middle
     integer :: middle = 0          !! pin where the bodies meet
@@ -169,7 +176,7 @@ module linkages
     integer, allocatable :: bodies(:)  !! that it turns
     integer, allocatable :: loaded(:)  !! bodies whose loads it bears
     type(equation_t), allocatable :: equations(:) !! as many as it has unknowns; none of
-                                                  !! `groups_dyad` and `groups_carried`
+                                                  !! `group_dyad` and `group_carried`
   end type group_t
 
   !> A piece of the path about a change point, where equations depend on each other and two smooth
@@ -294,7 +301,7 @@ contains
     type(linkage_t), intent(in) :: linkage !! its bodies and groups
     logical :: is
 
-    is = linkage%has_crank .and. all(linkage%groups%kind == groups_dyad) .and. &
+    is = linkage%has_crank .and. all(linkage%groups%kind == group_dyad) .and. &
       size(linkage%sliders) == 0 .and. size(linkage%drives) == 1
   end function is_dyad_linkage
 

@@ -6,19 +6,19 @@ module mechanisms
   use beam_mesh, only: new_beam_mesh
   use four_bar_loops, only: find_four_bar, four_bar_t
   use elastic_linkages, only: needs_parts, new_elastic_linkage
-  use friction_parts, only: frictions_of
+  use friction_builder, only: frictions_of
   use kinds, only: wp
   use link_cards, only: has_own_mass, link_t
-  use linkage_parts, only: assemble_linkage, assembly_t
+  use linkage_builder, only: assemble_linkage, assembly_t
   use linkages, only: is_dyad_linkage
   use linkage_cards, only: default_accuracy
   use models, only: as_four_bar, inertia_lumped, link_line_density, model_t, needs_beams
   use name_index, only: name_index_t, new_name_index
   use pose_types, only: pins_of_body, way_length
-  use process_parts, only: process_loads
-  use response_parts, only: body_gauge_t, gauges_of, response_points_of
+  use process_builder, only: process_loads
+  use response_builder, only: body_gauge_t, gauges_of, response_points_of
   use shear, only: link_rotary_inertia, link_shear_stiffness
-  use spring_parts, only: springs_of
+  use spring_builder, only: springs_of
   use structures, only: structure_t
   use text, only: string_t
   use tokens, only: token_texts

@@ -1,9 +1,9 @@
 !> The plan of a linkage in words: how it is placed, group by group.
 module plan_words
   use kinds, only: wp
-  use linkages, only: drives_nothing, group_t, groups_carried, groups_cross_slide, &
-    groups_driven_dyad, groups_dyad, groups_on_line, groups_placed, groups_spanned, &
-    groups_through_pin, groups_turned, groups_two_lines
+  use linkages, only: drive_of_nothing, group_t, group_carried, group_cross_slide, &
+    group_driven_dyad, group_dyad, group_on_line, group_placed, group_spanned, &
+    group_through_pin, group_turned, group_two_lines
   use mechanisms, only: mechanism_t
   use text, only: append_string, plural, string_t, to_string
   implicit none (type, external)
@@ -21,7 +21,7 @@ contains
     integer :: i
 
     associate (linkage => mechanism%linkage)
-      if (any(linkage%drives%kind == drives_nothing)) then
+      if (any(linkage%drives%kind == drive_of_nothing)) then
         call append_string(notes, "structure of "//plural(size(linkage%bodies), "link"))
       else
         call append_string(notes, "linkage of "//to_string(size(linkage%bodies) + 1)// &
@@ -30,7 +30,7 @@ contains
       if (linkage%has_crank) call append_string(notes, "placed: "//mechanism%names(1)%text// &
         " turns about "//mechanism%pin_names(linkage%bodies(1)%first_pin)%text)
       do i = 1, size(linkage%groups)
-        if (linkage%groups(i)%kind == groups_carried) cycle
+        if (linkage%groups(i)%kind == group_carried) cycle
         call append_string(notes, "placed: "//group_words(mechanism, linkage%groups(i)))
       end do
       if (size(linkage%redundancies) > 0) call append_string(notes, "redundant: "// &
@@ -87,25 +87,25 @@ contains
     side = trim(merge("forward ", "backward", group%side > 0.0_wp))
     associate (names => mechanism%names, pins => mechanism%pin_names)
       select case (group%kind)
-      case (groups_dyad, groups_driven_dyad)
+      case (group_dyad, group_driven_dyad)
         words = pins(group%middle)%text//" by "//names(group%body(1))%text//" and "// &
           names(group%body(2))%text//", "//trim(merge("left ", "right", group%side > 0.0_wp))// &
           " of "//pins(group%base(1))%text//" -> "//pins(group%base(2))%text//" (RRR)"
-      case (groups_on_line)
+      case (group_on_line)
         words = pins(group%middle)%text//" by "//names(group%body(1))%text//" and a slider, "// &
           side//" (RRP)"
-      case (groups_through_pin)
+      case (group_through_pin)
         words = names(group%body(1))%text//" by a block at "//pins(group%middle)%text//" (RPR)"
-      case (groups_two_lines)
+      case (group_two_lines)
         words = pins(group%pins(1))%text//" by two sliders (PRP)"
-      case (groups_cross_slide)
+      case (group_cross_slide)
         words = names(group%body(1))%text//" by two sliders (PPR)"
-      case (groups_turned)
+      case (group_turned)
         words = names(group%body(1))%text//" by its angle"
-      case (groups_spanned)
+      case (group_spanned)
         words = names(group%body(1))%text//" between "//pins(group%base(1))%text//" and "// &
           pins(group%middle)%text
-      case (groups_placed)
+      case (group_placed)
         words = pins(group%pins(1))%text//" by its drive"
       case default
         words = ""

@@ -4,10 +4,10 @@ module models
   use balance_cards, only: balance_card_t, shaft_card_t
   use body_cards, only: mass_card_t, point_t
   use card_echo, only: echo_line_t
-  use drive_cards, only: branch_t, drive_angle, drive_t, moves_along
+  use drive_cards, only: branch_t, drive_angle, drive_card_t, moves_along
   use effect_cards, only: effects_axial, effects_static
   use friction_cards, only: friction_card_t
-  use joint_cards, only: drawn_pin_t, guide_t, slider_t, weld_t
+  use joint_cards, only: drawn_pin_t, guide_t, slider_card_t, weld_t
   use kinds, only: wp
   use law_cards, only: law_card_t
   use link_cards, only: has_own_mass, link_t
@@ -21,9 +21,9 @@ module models
   use output_units, only: output_units_t
   use report_cards, only: report_t
   use report_kinds, only: any_linkage, four_bars, report_kind_t
-  use response_cards, only: damping_card_t, gauge_t, omitted_terms_t
+  use response_cards, only: damping_card_t, gauge_card_t, omitted_terms_t
   use sections, only: section_t
-  use spring_cards, only: spring_t
+  use spring_cards, only: spring_card_t
   use summary_cards, only: takes_from
   use text, only: same_word, to_string
   use tokens, only: token_t
@@ -64,13 +64,13 @@ module models
     type(weld_t), allocatable :: welds(:)
     type(weld_t), allocatable :: clamps(:)      !! CLAMP cards: links that turn with the ground
     type(guide_t), allocatable :: guides(:)
-    type(slider_t), allocatable :: sliders(:)
+    type(slider_card_t), allocatable :: sliders(:)
     type(pin_mass_t), allocatable :: pin_masses(:)
     type(mesh_t), allocatable :: meshes(:)
     type(mass_card_t), allocatable :: masses(:)
     type(point_t), allocatable :: points(:)
     type(damping_card_t), allocatable :: dampings(:)
-    type(gauge_t), allocatable :: gauges(:)
+    type(gauge_card_t), allocatable :: gauges(:)
     real(wp) :: gravity(2) = 0.0_wp             !! in global axes [m/s²]
     type(token_t) :: gravity_word               !! keyword
     type(force_card_t), allocatable :: forces(:)
@@ -78,12 +78,12 @@ module models
     type(motor_t) :: motor
     type(process_card_t), allocatable :: processes(:) !! FORCE, TORQUE and LOAD cards on all
                                                 !! other loads
-    type(spring_t), allocatable :: springs(:)   !! SPRING and DAMPER cards
+    type(spring_card_t), allocatable :: springs(:)   !! SPRING and DAMPER cards
     type(friction_card_t), allocatable :: frictions(:) !! FRICTION cards
     type(balance_card_t) :: balance             !! counterweights of REPORT balance
     type(shaft_card_t), allocatable :: shafts(:) !! its balance shafts
     type(law_card_t), allocatable :: laws(:)    !! LAW cards
-    type(drive_t), allocatable :: drives(:)     !! the first one's positions are those of CRANK
+    type(drive_card_t), allocatable :: drives(:)     !! the first one's positions are those of CRANK
     logical :: is_structure = .false.           !! without a drive, by intent: one position
     logical :: cuts_at_springs = .false.        !! links bend: a point with a spring is a pin
     type(token_t) :: drive                      !! first word of the first DRIVE card: the driven

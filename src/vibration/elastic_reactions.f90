@@ -14,7 +14,7 @@ module elastic_reactions
   use joint_friction, only: force_in_joint, has_friction, put_friction
   use kinematic_coefficients, only: kinematic_coefficients_t
   use kinds, only: wp
-  use linkages, only: body_t, cross, drives_angle, forced_place_t, linkage_t, lump_t
+  use linkages, only: body_t, cross, drive_of_angle, forced_place_t, linkage_t, lump_t
   use load_cases, only: case_count, find_unit_loads
   use part_displacements, only: border_size
   use part_efforts, only: add_end_couple, add_friction_effort, add_moving_efforts, effort_case, &
@@ -79,7 +79,7 @@ contains
       end if
       released = linkage
       if (.not. present(crank)) then
-        where (linkage%drives%kind == drives_angle) released%drives%is_free = .true.
+        where (linkage%drives%kind == drive_of_angle) released%drives%is_free = .true.
         linkage%drives%is_free = .false.
       end if
     end associate
@@ -369,7 +369,7 @@ contains
         unknowns, free)
       model = division%model
       model%layout%border = unknowns
-      model%layout%free = count(linkage%drives%kind == drives_angle)
+      model%layout%free = count(linkage%drives%kind == drive_of_angle)
       call load_parts(division%structure, model, pose, at%here, at%chords, error)
       if (allocated(error)) return
       if (any(division%structure%load_elements > 0)) call load_nodes(division, at)
@@ -381,7 +381,7 @@ contains
       if (has_moving_loads(linkage)) call add_moving_efforts(linkage, pose, motion, &
         at%here%elastic, at%here%pose, loads)
       associate (drive => linkage%drives(1))
-        if (drive%kind == drives_angle) then
+        if (drive%kind == drive_of_angle) then
           call add_end_couple(at%here%elastic, drive%body, shared_pin(linkage, drive%body, &
             drive%against), drive_force, loads)
           if (drive%against > 0) call add_end_couple(at%here%elastic, drive%against, &

@@ -13,7 +13,7 @@ module position_assembly
   use kinematic_coefficients, only: kinematic_coefficients_t
   use ledger, only: ledger_t
   use link_modes, only: rigid
-  use linkages, only: drives_length
+  use linkages, only: drive_of_length
   use load_cases, only: case_count, find_unit_loads, unit_loads_t
   use part_displacements, only: border_size, border_t, find_part_chords, new_border
   use part_forces, only: find_part_forces, part_forces_t
@@ -176,7 +176,7 @@ contains
     call place_parts_of(structure%linkage, pose, here%elastic, here%pose, error)
     if (allocated(error)) return
     do i = 1, size(structure%linkage%drives)
-      if (structure%linkage%drives(i)%kind /= drives_length) cycle
+      if (structure%linkage%drives(i)%kind /= drive_of_length) cycle
       part = findloc(here%elastic%body, structure%linkage%drives(i)%body, dim=1)
       associate (ram => here%model%links(part))
         ram%length = here%elastic%linkage%bodies(part)%length

@@ -2,7 +2,7 @@
 module sample_linkages
   use computed_decks, only: read_text
   use kinds, only: wp
-  use linkage_parts, only: assemble_linkage, assembly_t
+  use linkage_builder, only: assemble_linkage, assembly_t
   use linkages, only: linkage_t
   use models, only: model_t
   use name_index, only: find_name, new_name_index

@@ -1,5 +1,4 @@
-!> A link between its pins: what it does of its own, taken apart once a run from what its pins make
-!! it do.
+!> Component modes of a link: fixed-interface modes and constraint modes, once a run.
 !!
 !! The displacement of a link is that of its chord, linear between the pins, and its own
 !! deformation, which vanishes at both ends. An end is pinned, or held: it turns with what is

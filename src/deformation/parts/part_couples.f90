@@ -3,14 +3,14 @@
 !!
 !! The moments that couples put on an end are known together. Where it has but one that is unknown
 !! yet, that follows, and loads the end on its other side. Where ends hold each other all the way
-!! round, one couple is open: no equilibrium tells it, and no deformation.
+!! round, one couple stays indeterminate.
 module part_couples
   use drive_rates, only: is_joint
   use elastic_linkages, only: elastic_linkage_t, spring_t
   use inertia_loads, only: load_t
   use joint_forces, only: joint_forces_t
   use kinds, only: wp
-  use linkages, only: cross, drives_angle, linkage_t
+  use linkages, only: cross, drive_of_angle, linkage_t
   use load_cases, only: constant_case
   use part_displacements, only: border_t
   use part_force_types, only: part_forces_t
@@ -186,7 +186,7 @@ contains
     end do
     do i = 1, size(linkage%drives)
       associate (drive => linkage%drives(i))
-        if (drive%kind /= drives_angle) cycle
+        if (drive%kind /= drive_of_angle) cycle
         if (drive%body == body .and. is_joint(linkage, point, drive%against)) moment = moment - &
           joints%drive(i)
         if (drive%against == body .and. is_joint(linkage, point, drive%body)) moment = moment + &
@@ -233,7 +233,7 @@ contains
     end do
     do i = 1, size(linkage%drives)
       associate (drive => linkage%drives(i))
-        if (drive%kind /= drives_angle) cycle
+        if (drive%kind /= drive_of_angle) cycle
         if (drive%body == body) moment = moment + joints%drive(i)
         if (drive%against == body) moment = moment - joints%drive(i)
       end associate

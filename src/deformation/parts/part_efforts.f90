@@ -92,7 +92,7 @@ contains
     end do
   end subroutine add_moving_efforts
 
-  !> Adds an effort of one in a joint that rubs, as of `put_friction`.
+  !> Adds the loads of a unit friction force or couple in a joint, as `put_friction` does.
   pure subroutine add_friction_effort(linkage, pose, number, elastic, placed, loads)
     type(linkage_t), intent(in) :: linkage          !! that moves, with its frictions
     type(pose_t), intent(in) :: pose                !! of it

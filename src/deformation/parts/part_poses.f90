@@ -8,7 +8,7 @@ module part_poses
   use elastic_linkages, only: add_couple, elastic_linkage_t, spring_t
   use errors, only: error_t
   use kinds, only: wp
-  use linkages, only: cross, drives_length, linkage_t, normal_to, turned, turned_back
+  use linkages, only: cross, drive_of_length, linkage_t, normal_to, turned, turned_back
   use load_cases, only: case_count, constant_case, load_case_t, unit_loads_t
   use piece_places, only: place_pieces
   use poses, only: arm_to_place, pose_t
@@ -59,7 +59,7 @@ contains
       if (allocated(error)) return
     end do
     do i = 1, size(linkage%drives)
-      if (linkage%drives(i)%kind /= drives_length) cycle
+      if (linkage%drives(i)%kind /= drive_of_length) cycle
       n = findloc(elastic%body, linkage%drives(i)%body, dim=1)
       associate (part => elastic%linkage%bodies(n))
         way = pose%pin(:, part%last_pin) - pose%pin(:, part%first_pin)

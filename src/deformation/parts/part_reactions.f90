@@ -13,7 +13,7 @@ module part_reactions
   use joint_forces, only: joint_forces_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
-  use linkages, only: drives_angle, linkage_t, normal_to
+  use linkages, only: drive_of_angle, linkage_t, normal_to
   use load_cases, only: load_case_t
   use part_couples, only: find_part_couples
   use part_displacements, only: border_t
@@ -129,7 +129,7 @@ contains
 
     torque = 0.0_wp
     do i = 1, size(drive)
-      if (linkage%drives(i)%kind /= drives_angle .or. .not. linkage%drives(i)%is_free) cycle
+      if (linkage%drives(i)%kind /= drive_of_angle .or. .not. linkage%drives(i)%is_free) cycle
       links = [linkage%drives(i)%body, linkage%drives(i)%against]
       do k = 1, 2
         if (elastic%body(part) /= links(k)) cycle

@@ -11,7 +11,7 @@ module border_rows
   use graded_rows, only: graded_rows_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
-  use linkages, only: body_t, drives_slider, normal_to, turned
+  use linkages, only: body_t, drive_of_slider, normal_to, turned
   use poses, only: pose_t
   implicit none (type, external)
   private
@@ -120,7 +120,7 @@ contains
     numbers%drive_constraint = 0
     do i = 1, size(numbers%drive_constraint)
       associate (drive => elastic%linkage%drives(i))
-        if (drive%kind /= drives_slider .or. drive%is_free) cycle
+        if (drive%kind /= drive_of_slider .or. drive%is_free) cycle
         if (elastic%linkage%sliders(drive%slider)%body == 0) cycle
         n = n + 1
         numbers%drive_constraint(i) = n

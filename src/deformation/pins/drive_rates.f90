@@ -5,7 +5,7 @@ module drive_rates
   use elastic_linkages, only: elastic_linkage_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
-  use linkages, only: drives_angle, drives_slider, linkage_t, normal_to
+  use linkages, only: drive_of_angle, drive_of_slider, linkage_t, normal_to
   use pin_displacements, only: chords_t
   use pose_types, only: pins_of_body
   use poses, only: pose_t
@@ -34,11 +34,11 @@ contains
     do i = 1, size(free)
       associate (drive => linkage%drives(free(i)))
         rate(i, :) = 0.0_wp
-        if (drive%kind == drives_angle) then
+        if (drive%kind == drive_of_angle) then
           rate(i, :) = turn_at_joint(linkage, elastic, links, chords, drive%body, drive%against)
           if (drive%against > 0) rate(i, :) = rate(i, :) - turn_at_joint(linkage, elastic, links, &
             chords, drive%against, drive%body)
-        else if (drive%kind == drives_slider) then
+        else if (drive%kind == drive_of_slider) then
           rate(i, :) = slide_of(elastic, pose, chords, drive%slider)
         end if
       end associate
@@ -226,7 +226,7 @@ contains
       associate (drive => linkage%drives(d))
         if (.not. drive%is_free) cycle
         i = i + 1
-        if (drive%kind /= drives_angle) cycle
+        if (drive%kind /= drive_of_angle) cycle
         bodies = [drive%body, drive%against]
         do k = 1, 2
           if (bodies(k) == 0) cycle

@@ -1,7 +1,7 @@
 !> Displacements of the pins caused by the elongations of the links and the rotation of the clamped
 !! end.
 !!
-!! With its driven link clamped, a linkage of mobility one is statically determinate: the
+!! Of a crank and dyads whose driven link is clamped. It is statically determinate: the
 !! deformations of its links are free coordinates, and the pins follow. A link moves the pins only
 !! by its elongation; the driven link also by the rotation of its chord against the clamp. A rigid
 !! link moves none.

@@ -9,7 +9,7 @@
 module hung_counterweights
   use balanced_linkages, only: counterweight_t
   use kinds, only: wp
-  use linkages, only: drives_length, linkage_t, turned_back
+  use linkages, only: drive_of_length, linkage_t, turned_back
   use pose_types, only: pins_of_body, place_of_pin
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t
   implicit none (type, external)
@@ -117,8 +117,8 @@ contains
       obstacle = obstacle_t(obstacle_pin, loose)
     else if (sum(max(links - 1, 0)) > size(linkage%bodies)) then
       obstacle = obstacle_t(obstacle_loop, 0)
-    else if (any(linkage%drives%kind == drives_length)) then
-      b = findloc(linkage%drives%kind, drives_length, dim=1)
+    else if (any(linkage%drives%kind == drive_of_length)) then
+      b = findloc(linkage%drives%kind, drive_of_length, dim=1)
       obstacle = obstacle_t(obstacle_ram, linkage%drives(b)%body)
     end if
   end function obstacle_of

@@ -9,8 +9,8 @@ module free_forces
   use joint_forces, only: add_force, joint_forces_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: cross, demands_angle, demands_drive, demands_length, demands_line, &
-    demands_turn, drives_length, equation_t, linkage_t
+  use linkages, only: cross, demand_angle, demand_drive, demand_length, demand_line, &
+    demand_turn, drive_of_length, equation_t, linkage_t
   use plan_equations, only: drive_equation
   use pose_types, only: pose_t
   use rigid_bodies, only: central_inertia, mass_centre, rigid_body_t
@@ -69,7 +69,7 @@ contains
     do i = 1, m
       call find_gradient(whole%linkage, whole%equations(i), pose, equations%gradient(i))
       equations%gear(i) = 0.0_wp
-      if (whole%equations(i)%kind == demands_drive) equations%gear(i) = drive_rate(whole%linkage, &
+      if (whole%equations(i)%kind == demand_drive) equations%gear(i) = drive_rate(whole%linkage, &
         whole%equations(i)%number)
     end do
     call find_gradient(whole%linkage, drive_equation(1), pose, equations%gradient(m + 1))
@@ -292,15 +292,15 @@ contains
     if (gradient%pin(2) > 0) joints%on_first(:, gradient%body(1)) = joints%on_first(:, &
       gradient%body(1)) - lambda*gradient%by_pin(:, 2)
     select case (equation%kind)
-    case (demands_length, demands_angle)
+    case (demand_length, demand_angle)
       call add_force(linkage, equation%body, equation%pin, -lambda*gradient%by_pin(:, 1), joints)
-    case (demands_line)
+    case (demand_line)
       joints%guide(equation%number) = lambda
-    case (demands_turn)
+    case (demand_turn)
       joints%couple(equation%number) = lambda
-    case (demands_drive)
+    case (demand_drive)
       joints%drive(equation%number) = lambda
-      if (linkage%drives(equation%number)%kind == drives_length) call add_force(linkage, &
+      if (linkage%drives(equation%number)%kind == drive_of_length) call add_force(linkage, &
         linkage%drives(equation%number)%body, gradient%pin(1), -lambda*gradient%by_pin(:, 1), &
         joints)
     end select

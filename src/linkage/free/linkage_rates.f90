@@ -24,7 +24,7 @@ module linkage_rates
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, find_velocities, &
     kinematic_coefficients_t
-  use linkages, only: drives_angle, linkage_t
+  use linkages, only: drive_of_angle, linkage_t
   use load_tables, only: refuse_beyond_tables
   use loop_curves, only: curve_point_t, find_point, loop_curve_t
   use loop_poses, only: place_on_curve
@@ -43,12 +43,17 @@ module linkage_rates
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
     stop_many_steps, stop_misfit, stop_energy, stop_at_end, stop_locked
 
-  !> Why a motion stops; at last because a block leaves its link or a table ends, and because no
-  !! acceleration balances friction. There are no rates then, without inertia, and where links move
-  !! too fast.
-  integer, parameter :: no_stop = 0, stop_change_point = 1, stop_no_inertia = 2, &
-    stop_too_fast = 3, stop_steps = 4, stop_many_steps = 5, stop_misfit = 6, stop_energy = 7, &
-    stop_at_end = 8, stop_locked = 9
+  !> Why a motion stops.
+  integer, parameter :: no_stop = 0
+  integer, parameter :: stop_change_point = 1
+  integer, parameter :: stop_no_inertia = 2 !! nothing with a mass moves: there are no rates
+  integer, parameter :: stop_too_fast = 3   !! links move too fast to have rates
+  integer, parameter :: stop_steps = 4      !! steps have become too short
+  integer, parameter :: stop_many_steps = 5
+  integer, parameter :: stop_misfit = 6     !! redundant links do not fit
+  integer, parameter :: stop_energy = 7     !! energies do not balance
+  integer, parameter :: stop_at_end = 8     !! a block leaves its link, or a table ends
+  integer, parameter :: stop_locked = 9     !! no acceleration balances friction
 
   !> Steps begin with an angle of the first drive from −π to π: a trial step beyond `most_angle` is
   !! too long, whatever its estimated error [rad]. `most_rate` is beyond any mechanics, but short of
@@ -176,7 +181,7 @@ contains
     end if
     if (.not. found) return
     pose%crank = state(1)
-    if (self%whole%linkage%drives(1)%kind == drives_angle) pose%crank = state(1)/degree + &
+    if (self%whole%linkage%drives(1)%kind == drive_of_angle) pose%crank = state(1)/degree + &
       self%turned
     call refuse_beyond_tables(self%whole%linkage, pose, self%whole%origin, error)
     found = .not. allocated(error)
@@ -206,7 +211,7 @@ contains
     integer :: i
 
     crank = coordinates(1)
-    if (self%whole%linkage%drives(1)%kind == drives_angle) then
+    if (self%whole%linkage%drives(1)%kind == drive_of_angle) then
       if (.not. abs(crank) < most_angle) then
         call set_error(error, error_of_reach, "the step is too long")
         return
@@ -228,7 +233,7 @@ contains
         associate (drive => linkage%drives(self%free(i)))
           drive%ratio = 0.0_wp
           drive%phase = coordinates(i)
-          if (drive%kind == drives_angle) drive%phase = coordinates(i)/degree
+          if (drive%kind == drive_of_angle) drive%phase = coordinates(i)/degree
         end associate
       end do
       pose = self%pose
@@ -554,7 +559,7 @@ contains
     coordinate = pose%crank
     if (.not. allocated(self%loop)) coordinate = drive_position(self%whole, pose, 1, &
       self%chart%crank)
-    if (self%whole%linkage%drives(1)%kind == drives_angle) coordinate = coordinate*degree
+    if (self%whole%linkage%drives(1)%kind == drive_of_angle) coordinate = coordinate*degree
   end function coordinate_of
 
   !> M, and the generalised forces of gravity, constant forces and inertia without ü.

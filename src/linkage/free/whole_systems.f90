@@ -9,9 +9,9 @@ module whole_systems
     gradient_t, misfit_of
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: demands_angle, demands_drive, demands_length, drives_angle, equation_t, &
+  use linkages, only: demand_angle, demand_drive, demand_length, drive_of_angle, equation_t, &
     linkage_t, normal_to, reference_point
-  use plan_equations, only: append_equation, drive_equation, drive_of_length, line_equation, &
+  use plan_equations, only: append_equation, drive_equation, length_drive, line_equation, &
     pin_equation, turn_equation
   use pose_types, only: pins_of_body, pose_t
   implicit none (type, external)
@@ -55,9 +55,9 @@ contains
       system%scale(i) = farthest_arm(linkage%bodies(i))
       pins = pins_of_body(linkage%bodies(i))
       do k = 2, size(pins)
-        if (k > 2 .or. drive_of_length(linkage, i) == 0) call append_equation(system%equations, &
-          pin_equation(linkage, demands_length, i, pins(k)))
-        call append_equation(system%equations, pin_equation(linkage, demands_angle, i, pins(k)))
+        if (k > 2 .or. length_drive(linkage, i) == 0) call append_equation(system%equations, &
+          pin_equation(linkage, demand_length, i, pins(k)))
+        call append_equation(system%equations, pin_equation(linkage, demand_angle, i, pins(k)))
       end do
     end do
     do i = 1, size(linkage%sliders)
@@ -128,7 +128,7 @@ contains
     real(wp) :: rate
 
     rate = 0.0_wp
-    if (equation%kind == demands_drive) rate = drive_rate(system%linkage, equation%number)
+    if (equation%kind == demand_drive) rate = drive_rate(system%linkage, equation%number)
   end function rate_by_gears
 
   !> Gradient of the coordinate of a drive by the unknowns.
@@ -244,9 +244,10 @@ contains
     associate (it => system%linkage%drives(drive))
       position = misfit_of(system%linkage, drive_equation(drive), pose, &
         system%origin, 0.0_wp)
-      if (it%kind == drives_angle) position = position/degree
+      if (it%kind == drive_of_angle) position = position/degree
       position = position + it%phase
-      if (it%kind == drives_angle) position = position + 360.0_wp*anint((near - position)/360.0_wp)
+      if (it%kind == drive_of_angle) position = position + 360.0_wp*anint((near - &
+        position)/360.0_wp)
     end associate
   end function drive_position
 

@@ -3,8 +3,8 @@ module group_determinants
   use dense_factor, only: dense_factor_t, least_singular_value
   use group_equations, only: factorize_group, line_axis
   use kinds, only: wp
-  use linkages, only: cross, groups_by_newton, groups_cross_slide, groups_driven_dyad, &
-    groups_dyad, groups_on_line, groups_through_pin, groups_two_lines, linkage_t
+  use linkages, only: cross, group_by_newton, group_cross_slide, group_driven_dyad, &
+    group_dyad, group_on_line, group_through_pin, group_two_lines, linkage_t
   use pose_types, only: pose_t
   use poses, only: arm_to_middle
   implicit none (type, external)
@@ -44,20 +44,20 @@ contains
     determinant = 1.0_wp
     associate (group => linkage%groups(number))
       select case (group%kind)
-      case (groups_dyad, groups_driven_dyad)
+      case (group_dyad, group_driven_dyad)
         determinant = cross(arm_to_middle(linkage, group, pose, 1), arm_to_middle(linkage, group, &
           pose, 2))
-      case (groups_on_line)
+      case (group_on_line)
         way = pose%pin(:, group%middle) - pose%pin(:, group%base(1))
         determinant = dot_product(line_axis(linkage, pose, group%slider(1)), way)/norm2(way)
-      case (groups_through_pin)
+      case (group_through_pin)
         way = pose%pin(:, group%middle) - pose%pin(:, group%base(1))
         determinant = dot_product(line_axis(linkage, pose, group%slider(1)), way)/ &
           max(linkage%bodies(group%body(1))%length, norm2(way))
-      case (groups_two_lines, groups_cross_slide)
+      case (group_two_lines, group_cross_slide)
         determinant = cross(line_axis(linkage, pose, group%slider(1)), line_axis(linkage, pose, &
           group%slider(2)))
-      case (groups_by_newton)
+      case (group_by_newton)
         allocate (scales(size(group%bodies)))
         call factorize_group(linkage, group, pose, factor, scales)
         determinant = least_singular_value(factor)/group%usual

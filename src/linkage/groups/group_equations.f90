@@ -11,8 +11,8 @@ module group_equations
   use constants, only: degree
   use dense_factor, only: dense_factor_t, factorize
   use kinds, only: wp
-  use linkages, only: body_t, cross, demands_angle, demands_drive, demands_length, demands_line, &
-    demands_turn, drives_angle, drive_t, drives_length, drives_slider, equation_t, group_t, &
+  use linkages, only: body_t, cross, demand_angle, demand_drive, demand_length, demand_line, &
+    demand_turn, drive_of_angle, drive_t, drive_of_length, drive_of_slider, equation_t, group_t, &
     linkage_t, normal_to, turned
   use pose_types, only: pose_t
   implicit none (type, external)
@@ -43,27 +43,27 @@ contains
     real(wp) :: axis(2)
 
     select case (equation%kind)
-    case (demands_length)
+    case (demand_length)
       call of_distance(linkage, pose, equation%body, equation%pin, gradient)
-    case (demands_angle)
+    case (demand_angle)
       axis = turned(equation%place, pose%direction(:, equation%body))
       axis = normal_to(axis/norm2(axis))
       call along_body(linkage, pose, equation%body, equation%pin, axis, gradient)
-    case (demands_line)
+    case (demand_line)
       call on_line(linkage, pose, equation%number, .true., gradient)
-    case (demands_turn)
+    case (demand_turn)
       gradient%body = [linkage%turns(equation%number)%body, &
         linkage%turns(equation%number)%against]
       gradient%by_angle = [1.0_wp, -1.0_wp]
-    case (demands_drive)
+    case (demand_drive)
       associate (drive => linkage%drives(equation%number))
         select case (drive%kind)
-        case (drives_angle)
+        case (drive_of_angle)
           gradient%body = [drive%body, drive%against]
           gradient%by_angle = [1.0_wp, -1.0_wp]
-        case (drives_slider)
+        case (drive_of_slider)
           call on_line(linkage, pose, drive%slider, .false., gradient)
-        case (drives_length)
+        case (drive_of_length)
           call of_distance(linkage, pose, drive%body, linkage%bodies(drive%body)%last_pin, &
             gradient)
         end select
@@ -146,35 +146,35 @@ contains
 
     misfit = 0.0_wp
     select case (equation%kind)
-    case (demands_length)
+    case (demand_length)
       u = pose%pin(:, equation%pin) - pose%pin(:, linkage%bodies(equation%body)%first_pin)
       misfit = norm2(u) - norm2(equation%place)
-    case (demands_angle)
+    case (demand_angle)
       axis = turned(equation%place, pose%direction(:, equation%body))
       u = pose%pin(:, equation%pin) - pose%pin(:, linkage%bodies(equation%body)%first_pin)
       misfit = cross(axis, u)/norm2(axis)
-    case (demands_line)
+    case (demand_line)
       call world_line(linkage, pose, equation%number, origin, axis, u)
       misfit = cross(axis, pose%pin(:, linkage%sliders(equation%number)%pin) - u)
-    case (demands_turn)
+    case (demand_turn)
       associate (turn => linkage%turns(equation%number))
         wanted = turn%relative
         if (turn%against > 0) wanted = turned(wanted, pose%direction(:, turn%against))
         found = pose%direction(:, turn%body)
       end associate
       misfit = atan2(cross(wanted, found), dot_product(wanted, found))
-    case (demands_drive)
+    case (demand_drive)
       associate (drive => linkage%drives(equation%number))
         select case (drive%kind)
-        case (drives_angle)
+        case (drive_of_angle)
           wanted = drive_direction(linkage, equation%number, pose, crank)
           found = pose%direction(:, drive%body)
           misfit = atan2(cross(wanted, found), dot_product(wanted, found))
-        case (drives_slider)
+        case (drive_of_slider)
           call world_line(linkage, pose, drive%slider, origin, axis, u)
           misfit = dot_product(axis, pose%pin(:, linkage%sliders(drive%slider)%pin) - u) - &
             drive_value(drive, crank)
-        case (drives_length)
+        case (drive_of_length)
           u = pose%pin(:, linkage%bodies(drive%body)%last_pin) - pose%pin(:, &
             linkage%bodies(drive%body)%first_pin)
           misfit = norm2(u) - drive_value(drive, crank)
@@ -217,8 +217,8 @@ contains
     type(equation_t), intent(in) :: equation
     logical :: is
 
-    is = equation%kind == demands_length
-    if (equation%kind == demands_drive) is = linkage%drives(equation%number)%kind == drives_length
+    is = equation%kind == demand_length
+    if (equation%kind == demand_drive) is = linkage%drives(equation%number)%kind == drive_of_length
   end function is_distance
 
   !> Coordinate of a drive [deg] or [m].
@@ -237,8 +237,8 @@ contains
     real(wp) :: rate
 
     rate = linkage%drives(number)%ratio
-    if (linkage%drives(number)%kind == drives_angle) rate = rate*degree
-    if (linkage%drives(1)%kind == drives_angle) rate = rate/degree
+    if (linkage%drives(number)%kind == drive_of_angle) rate = rate*degree
+    if (linkage%drives(1)%kind == drive_of_angle) rate = rate/degree
     if (number == 1) rate = 1.0_wp
   end function drive_rate
 

@@ -7,9 +7,9 @@ module group_places
   use group_equations, only: drive_direction, drive_value, factorize_group, &
     line_axis, line_offset, misfit_of, world_line
   use kinds, only: wp
-  use linkages, only: cross, demands_drive, equation_t, group_t, groups_carried, &
-    groups_cross_slide, groups_driven_dyad, groups_on_line, groups_placed, groups_spanned, &
-    groups_through_pin, groups_turned, groups_two_lines, linkage_t, normal_to, turned
+  use linkages, only: cross, demand_drive, equation_t, group_t, group_carried, &
+    group_cross_slide, group_driven_dyad, group_on_line, group_placed, group_spanned, &
+    group_through_pin, group_turned, group_two_lines, linkage_t, normal_to, turned
   use pose_types, only: arm_to_pin, place_of_pin, pose_t
   implicit none (type, external)
   private
@@ -39,22 +39,22 @@ contains
 
     sine = 1.0_wp
     select case (group%kind)
-    case (groups_carried)
+    case (group_carried)
       do i = 1, size(group%pins)
         pose%pin(:, group%pins(i)) = pose%pin(:, group%base(1)) + arm_to_pin(linkage, pose, &
           group%body(1), group%pins(i))
       end do
-    case (groups_driven_dyad)
+    case (group_driven_dyad)
       call place_driven_dyad(linkage, group, side, crank, pose, sine, error)
-    case (groups_on_line)
+    case (group_on_line)
       call place_on_line(linkage, group, side, origin, crank, pose, sine, error)
-    case (groups_through_pin)
+    case (group_through_pin)
       call place_through_pin(linkage, group, side, pose, sine, error)
-    case (groups_two_lines)
+    case (group_two_lines)
       call world_line(linkage, pose, group%slider(1), origin, axis, point)
       call world_line(linkage, pose, group%slider(2), origin, other_axis, other_point)
       call intersect(axis, point, other_axis, other_point, pose%pin(:, group%pins(1)), sine, error)
-    case (groups_cross_slide)
+    case (group_cross_slide)
       call turn_body(linkage, group, pose, crank)
       call world_line(linkage, pose, group%slider(1), origin, axis, point)
       other_axis = line_axis(linkage, pose, group%slider(2))
@@ -62,9 +62,9 @@ contains
       other_point = pose%pin(:, group%middle) - line_offset(linkage, group%slider(2))*normal_to( &
         other_axis)
       call intersect(axis, point, other_axis, other_point, pose%pin(:, group%pins(1)), sine, error)
-    case (groups_turned)
+    case (group_turned)
       call turn_body(linkage, group, pose, crank)
-    case (groups_spanned)
+    case (group_spanned)
       way = pose%pin(:, group%middle) - pose%pin(:, group%base(1))
       if (.not. norm2(way) > 0.0_wp) then
         sine = 0.0_wp
@@ -74,7 +74,7 @@ contains
       end if
       pose%direction(:, group%body(1)) = turned_back(way/norm2(way), place_of_pin(linkage%bodies( &
         group%body(1)), group%middle))
-    case (groups_placed)
+    case (group_placed)
       associate (drive => linkage%drives(group%equations(1)%number))
         call world_line(linkage, pose, drive%slider, origin, axis, point)
         pose%pin(:, group%pins(1)) = point + drive_value(drive, crank)*axis
@@ -92,7 +92,7 @@ contains
     real(wp) :: direction(2)
 
     associate (equation => group%equations(1))
-      if (equation%kind == demands_drive) then
+      if (equation%kind == demand_drive) then
         direction = drive_direction(linkage, equation%number, pose, crank)
       else
         direction = direction_of_turn(linkage, equation%number, group%body(1), pose)
@@ -148,7 +148,7 @@ contains
     real(wp), intent(out) :: length
     type(error_t), allocatable, intent(inout) :: error
 
-    if (equation%kind /= demands_drive) then
+    if (equation%kind /= demand_drive) then
       length = norm2(equation%place)
       return
     end if

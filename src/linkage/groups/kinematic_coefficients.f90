@@ -9,7 +9,7 @@ module kinematic_coefficients
   use dense_factor, only: dense_factor_t, solve
   use group_equations, only: curvature_of, drive_rate, factorize_group, find_gradient, gradient_t
   use kinds, only: wp
-  use linkages, only: demands_drive, group_t, groups_carried, groups_dyad, linkage_t, normal_to
+  use linkages, only: demand_drive, group_t, group_carried, group_dyad, linkage_t, normal_to
   use pose_types, only: arm_to_pin, kinematic_coefficients_t
   use poses, only: arm_to_middle, pose_t
   implicit none (type, external)
@@ -96,9 +96,9 @@ contains
     end if
     do i = 1, size(linkage%groups)
       select case (linkage%groups(i)%kind)
-      case (groups_dyad)
+      case (group_dyad)
         call move_dyad(linkage, linkage%groups(i), pose, pose%sine(i), coefficients)
-      case (groups_carried)
+      case (group_carried)
         call move_carried(linkage, linkage%groups(i), pose, coefficients)
       case default
         call move_group(linkage, linkage%groups(i), pose, rates, with_slopes, coefficients)
@@ -149,7 +149,7 @@ contains
     do i = 1, size(group%equations)
       call find_gradient(linkage, group%equations(i), pose, gradient(i))
       right(i) = -along(gradient(i), coefficients%pin, coefficients%turn)
-      if (group%equations(i)%kind == demands_drive) right(i) = right(i) + &
+      if (group%equations(i)%kind == demand_drive) right(i) = right(i) + &
         rates(group%equations(i)%number)
     end do
     call take(group, scales, solve(factor, right), coefficients%pin, coefficients%turn)

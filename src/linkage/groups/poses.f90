@@ -7,7 +7,7 @@ module poses
   use group_equations, only: drive_direction
   use group_places, only: improve_group, place_group
   use kinds, only: wp
-  use linkages, only: bridge_t, group_t, groups_by_newton, groups_dyad, is_dyad_linkage, &
+  use linkages, only: bridge_t, group_t, group_by_newton, group_dyad, is_dyad_linkage, &
     linkage_t, normal_to, path_t, reference_point, turned
   use pose_types, only: pose_t
   use redundancies, only: refuse_misfit
@@ -15,12 +15,12 @@ module poses
   implicit none (type, external)
   private
 
-  public :: pose_t, find_pose, find_moving_pose, refuse_change_point, place_links, place_parts, &
+  public :: pose_t, find_pose, find_moving_pose, refuse_change_point, place_links, place_pins, &
     place_groups, arm_to_middle, arm_to_place, body_angle, angle_along, transmission_angle, &
     dead_point_sine
 
-  !> Where |sin(θ4 − θ3)| is below this, near a dead point, the motion is not computed: velocities
-  !! grow like 1/sin(θ4 − θ3).
+  !> Where the scaled determinant of a group, of a dyad the sine of the angle between its bodies, is
+  !! below this, it is at a dead point: velocities grow like its inverse.
   real(wp), parameter :: dead_point_sine = 1.0e-6_wp
 
 contains
@@ -109,7 +109,7 @@ contains
     real(wp) :: origin(2)
 
     origin = reference_point(linkage)
-    call place_parts(linkage, crank, pose, error)
+    call place_pins(linkage, crank, pose, error)
     if (allocated(error)) return
     call refuse_misfit(linkage, pose, origin, crank, error)
     if (.not. allocated(error)) call refuse_leaving_block(linkage, pose, error)
@@ -119,7 +119,7 @@ contains
   !> Places every pin relative to `reference_point`, whether redundant links fit there or not.
   !!
   !! Errors: those of `place_links` but for redundant links.
-  pure subroutine place_parts(linkage, crank, pose, error)
+  pure subroutine place_pins(linkage, crank, pose, error)
     type(linkage_t), intent(in) :: linkage           !! bodies, groups and what joins them
     real(wp), intent(in) :: crank                    !! coordinate of the first drive [deg] or [m]
     type(pose_t), intent(out) :: pose                !! incomplete after an error
@@ -160,7 +160,7 @@ contains
       call start_on_path(path, at, pose, side, allowed, error)
     end associate
     if (allocated(error)) then
-      if (linkage%path%stops .or. any(linkage%groups%kind == groups_by_newton)) then
+      if (linkage%path%stops .or. any(linkage%groups%kind == group_by_newton)) then
         k = linkage%path%limits(merge(1, 2, at < linkage%path%crank(1)))%group
         if (k > 0) error%place%body = a_body_of(linkage%groups(k))
         return
@@ -180,7 +180,7 @@ contains
     if (allocated(error)) return
     if (correction > allowed) call set_error(error, error_of_numerics, &
       "the position was not found by iterations: they left the path")
-  end subroutine place_parts
+  end subroutine place_pins
 
   !> Solves for a pose that polynomials gave, where that loses fewer digits than they do.
   pure subroutine improve_near_limit(linkage, limit, pose)
@@ -243,10 +243,10 @@ contains
       associate (group => linkage%groups(i))
         its_side = group%side
         if (present(side)) its_side = side(i)
-        if (group%kind == groups_dyad) then
+        if (group%kind == group_dyad) then
           call place_dyad(linkage, group, linkage%bodies(group%body)%length, its_side, pose, &
             pose%sine(i), error)
-        else if (group%kind == groups_by_newton) then
+        else if (group%kind == group_by_newton) then
           call improve_group(linkage, group, origin, crank, pose, pose%sine(i), largest, &
             iterations, error)
           correction = max(correction, largest)

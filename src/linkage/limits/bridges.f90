@@ -5,7 +5,7 @@
 module bridges
   use constants, only: degree
   use kinds, only: wp
-  use linkages, only: bridge_t, cross, drives_angle, linkage_t, path_t
+  use linkages, only: bridge_t, cross, drive_of_angle, linkage_t, path_t
   use pose_types, only: pose_t
   implicit none (type, external)
   private
@@ -67,7 +67,7 @@ contains
       weight = node_weights(bridge%crank, crank)
     end if
     ! Derivatives are per radian.
-    if (linkage%drives(1)%kind == drives_angle) then
+    if (linkage%drives(1)%kind == drive_of_angle) then
       weight(:, 1) = weight(:, 1)/degree
       weight(:, 2) = weight(:, 2)/degree**2
     end if

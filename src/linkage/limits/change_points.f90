@@ -9,8 +9,8 @@ module change_points
   use bridges, only: change_of, cross_bridge, thinned
   use group_equations, only: misfit_of
   use kinds, only: wp
-  use linkages, only: bridge_t, cross, demands_line, demands_turn, equation_t, linkage_t
-  use plan_equations, only: drive_of_length
+  use linkages, only: bridge_t, cross, demand_line, demand_turn, equation_t, linkage_t
+  use plan_equations, only: length_drive
   use path_steps, only: station_t, step_to, take_step
   use pose_types, only: arm_to_pin, pins_of_body, pose_t
   implicit none (type, external)
@@ -310,7 +310,7 @@ contains
       pins = pins_of_body(linkage%bodies(b))
       do i = 2, size(pins)
         way = pose%pin(:, pins(i)) - pose%pin(:, pins(1))
-        if (i == 2 .and. drive_of_length(linkage, b) > 0) then
+        if (i == 2 .and. length_drive(linkage, b) > 0) then
           gap = max(gap, abs(cross(pose%direction(:, b), way)))
         else
           gap = max(gap, maxval(abs(way - arm_to_pin(linkage, pose, b, pins(i)))))
@@ -318,12 +318,12 @@ contains
       end do
     end do
     do i = 1, size(linkage%sliders)
-      gap = max(gap, abs(misfit_of(linkage, equation_t(demands_line, number=i), pose, origin, &
+      gap = max(gap, abs(misfit_of(linkage, equation_t(demand_line, number=i), pose, origin, &
         crank)))
     end do
     do i = 1, size(linkage%turns)
       gap = max(gap, linkage%bodies(linkage%turns(i)%body)%length*abs(misfit_of(linkage, &
-        equation_t(demands_turn, number=i), pose, origin, crank)))
+        equation_t(demand_turn, number=i), pose, origin, crank)))
     end do
   end function largest_gap
 

@@ -3,7 +3,7 @@ module crank_limits
   use errors, only: error_t
   use kinds, only: wp
   use linkage_paths, only: period_of
-  use linkages, only: bridge_t, drives_angle, linkage_t
+  use linkages, only: bridge_t, drive_of_angle, linkage_t
   use pose_types, only: pose_t
   use poses, only: find_moving_pose, place_links
   use sorting, only: ascending_order
@@ -55,9 +55,9 @@ contains
 
     allocate (ranges(0))
     period = period_of(linkage)
-    is_angle = linkage%drives(1)%kind == drives_angle
+    is_angle = linkage%drives(1)%kind == drive_of_angle
     if (present(drive)) then
-      is_angle = linkage%drives(drive)%kind == drives_angle
+      is_angle = linkage%drives(drive)%kind == drive_of_angle
       period = merge(360.0_wp, 0.0_wp, is_angle)
     end if
     if (period <= 0.0_wp) then
@@ -172,7 +172,7 @@ contains
     type(error_t), allocatable :: error
     integer :: i
 
-    turns = linkage%drives(1)%kind == drives_angle .and. &
+    turns = linkage%drives(1)%kind == drive_of_angle .and. &
       abs(period_of(linkage) - 360.0_wp) <= 0.0_wp
     do i = 1, samples
       if (.not. turns) return

@@ -10,8 +10,8 @@ module linkage_paths
   use constants, only: degree
   use errors, only: error_of_dead_point, error_of_input, error_t, set_error
   use kinds, only: wp
-  use linkages, only: bridge_t, changes_branch, changes_stop, changes_through, drives_angle, &
-    group_t, groups_by_newton, is_dyad_linkage, linkage_t, path_t, reference_point
+  use linkages, only: bridge_t, rule_branch, rule_stop, rule_through, drive_of_angle, &
+    group_t, group_by_newton, is_dyad_linkage, linkage_t, path_t, reference_point
   use path_limits, only: approach_t, watch
   use path_steps, only: new_station, station_t, take_step
   use pose_types, only: drawn_pose, pose_t
@@ -50,7 +50,7 @@ contains
     type(linkage_t), intent(in) :: linkage !! its groups
     logical :: has
 
-    has = any(linkage%groups%kind == groups_by_newton)
+    has = any(linkage%groups%kind == group_by_newton)
   end function has_iterations
 
   !> Whether a linkage goes smoothly through points at which its equations depend on each other.
@@ -68,7 +68,7 @@ contains
     real(wp) :: period
 
     period = 0.0_wp
-    if (linkage%drives(1)%kind /= drives_angle) return
+    if (linkage%drives(1)%kind /= drive_of_angle) return
     period = period_of_drives(linkage)
     if (allocated(linkage%path%crank)) period = linkage%path%period
   end function period_of
@@ -89,8 +89,8 @@ contains
       do i = 2, size(linkage%drives)
         associate (drive => linkage%drives(i), others => turns*linkage%drives(i)%ratio)
           if (abs(drive%ratio) <= 0.0_wp) cycle
-          repeats = repeats .and. drive%kind == drives_angle .and. abs(others - anint(others)) <= &
-            rounding*abs(others)
+          repeats = repeats .and. drive%kind == drive_of_angle .and. &
+            abs(others - anint(others)) <= rounding*abs(others)
         end associate
       end do
       period = 360.0_wp*turns
@@ -108,7 +108,7 @@ contains
     real(wp), intent(in) :: starts(:)         !! coordinates of the first drive [deg] or [m]: in the
                                               !! drawing, or without one those of the deck, of which
                                               !! the first serves that is no change point
-    integer, intent(in) :: changes            !! one of the changes_… constants
+    integer, intent(in) :: changes            !! one of the rule_… constants
     type(pose_t), allocatable, intent(out) :: nearest !! assembly nearest to the drawing, in global
                                                       !! axes; not allocated without one
     type(error_t), allocatable, intent(inout) :: error !! why there is no path
@@ -122,7 +122,7 @@ contains
     if (has_iterations(linkage)) then
       call begin_at_drawing(linkage, starts(1), first, span, nearest, error)
       if (allocated(error)) return
-      call follow_by_iterations(linkage, first, span, changes == changes_through)
+      call follow_by_iterations(linkage, first, span, changes == rule_through)
       if (size(linkage%path%crank) == 1) call set_error(error, error_of_dead_point, &
         "dead point: the linkage cannot be followed from the drawing")
       return
@@ -131,11 +131,11 @@ contains
     call begin_at_place(linkage, starts, first, span, usual)
     if (span <= 0.0_wp) return
     call follow(linkage, first, span, usual, .true., path)
-    if (changes == changes_branch) call find_jumps(linkage, path%bridges)
-    if ((size(path%bridges) == 0 .and. .not. any(path%is_lost)) .or. changes == changes_branch) then
+    if (changes == rule_branch) call find_jumps(linkage, path%bridges)
+    if ((size(path%bridges) == 0 .and. .not. any(path%is_lost)) .or. changes == rule_branch) then
       ! Dyads need no path where their sides are the same everywhere.
       deallocate (path%crank)
-    else if (changes == changes_stop) then
+    else if (changes == rule_stop) then
       call follow(linkage, first, span, usual, .false., path)
       path%stops = .true.
     end if
@@ -188,7 +188,7 @@ contains
 
     do i = 1, size(sine)
       ! Smaller ones are a dead point whatever is usual: too many digits are lost.
-      if (linkage%groups(i)%kind /= groups_by_newton .or. sine(i) < dead_point_sine) cycle
+      if (linkage%groups(i)%kind /= group_by_newton .or. sine(i) < dead_point_sine) cycle
       linkage%groups(i)%usual = linkage%groups(i)%usual*sine(i)
       pose%sine(i) = pose%sine(i)/sine(i)
     end do
@@ -324,7 +324,7 @@ contains
 
     span = 0.0_wp
     unit = 1.0_wp
-    if (linkage%drives(1)%kind /= drives_angle) unit = 0.01_wp*maxval(linkage%bodies%length)
+    if (linkage%drives(1)%kind /= drive_of_angle) unit = 0.01_wp*maxval(linkage%bodies%length)
     ! Where pins that carry a dyad meet nothing is placed.
     places = [starts(::1 + (size(starts) - 1)/most_places), starts(1) + beside(2:)*unit]
     do i = 1, size(places)
@@ -375,7 +375,7 @@ contains
     call march(linkage, first, -1.0_wp, span, usual, through, down)
     call join(down, up, path)
     ! Within less than a turn an angle is the same with and without whole turns.
-    if (linkage%drives(1)%kind == drives_angle .and. path%crank(size(path%crank)) - &
+    if (linkage%drives(1)%kind == drive_of_angle .and. path%crank(size(path%crank)) - &
       path%crank(1) < 360.0_wp) path%period = 360.0_wp
   end subroutine follow
 
@@ -407,7 +407,7 @@ contains
     integer :: halvings, stations, turns
     logical :: is_angle, is_close, is_good, is_free, is_ahead, found
 
-    is_angle = linkage%drives(1)%kind == drives_angle
+    is_angle = linkage%drives(1)%kind == drive_of_angle
     most_step = length_step*span
     if (is_angle) most_step = angle_step
     unit = 1.0_wp

@@ -8,7 +8,7 @@ module load_tables
   use errors, only: error_of_numerics, error_t, set_error
   use group_equations, only: world_line
   use kinds, only: wp
-  use linkages, only: drives_angle, linkage_t
+  use linkages, only: drive_of_angle, linkage_t
   use load_coordinates, only: counts_turns, load_deflection, place_in
   use pose_types, only: pose_t
   use poses, only: body_angle
@@ -127,7 +127,7 @@ contains
     select case (load%over)
     case (over_drive)
       x = pose%crank
-      if (linkage%drives(1)%kind == drives_angle) x = x*degree
+      if (linkage%drives(1)%kind == drive_of_angle) x = x*degree
     case (over_slider)
       call world_line(linkage, pose, load%number, origin, axis, point)
       x = dot_product(axis, pose%pin(:, linkage%sliders(load%number)%pin) - point)

@@ -1,9 +1,9 @@
 !> Dyads that place a pin: two loci, circles about known pins or known lines.
 module plan_dyads
   use body_axes, only: has_pin, rebase
-  use linkages, only: demands_angle, group_t, groups_driven_dyad, groups_dyad, groups_on_line, &
-    groups_two_lines, linkage_t
-  use plan_equations, only: drive_of_length, length_equation, line_equation, pin_equation
+  use linkages, only: demand_angle, group_t, group_driven_dyad, group_dyad, group_on_line, &
+    group_two_lines, linkage_t
+  use plan_equations, only: length_drive, length_equation, line_equation, pin_equation
   use plan_progress, only: append_group, carry_rest, known_pin, line_is_known, progress_t
   use plan_sides, only: choose_side, side_t
   implicit none (type, external)
@@ -76,7 +76,7 @@ contains
     integer :: deck_order
 
     deck_order = body
-    if (drive_of_length(linkage, body) > 0) deck_order = body + size(linkage%bodies)
+    if (length_drive(linkage, body) > 0) deck_order = body + size(linkage%bodies)
   end function deck_order
 
   !> The bodies on known pins, and the known lines, on which a pin lies. Rams come last: a drive
@@ -95,7 +95,7 @@ contains
     do b = 1, size(linkage%bodies)
       if (done%body(b) .or. .not. has_pin(linkage%bodies(b), pin)) cycle
       if (known_pin(linkage, b, done) == 0) cycle
-      if (drive_of_length(linkage, b) > 0) then
+      if (length_drive(linkage, b) > 0) then
         rams = [rams, b]
       else
         bodies = [bodies, b]
@@ -117,7 +117,7 @@ contains
 
     type(group_t) :: group
 
-    group%kind = groups_two_lines
+    group%kind = group_two_lines
     group%pins = [pin]
     group%slider = lines(:2)
     allocate (group%bodies(0), group%loaded(0), group%equations(2))
@@ -137,7 +137,7 @@ contains
 
     type(group_t) :: group
 
-    group%kind = groups_on_line
+    group%kind = group_on_line
     group%base(1) = known_pin(linkage, body, done)
     group%middle = pin
     group%body(1) = body
@@ -148,7 +148,7 @@ contains
     call rebase(linkage, body, group%base(1), pin)
     allocate (group%equations(3))
     group%equations(1) = length_equation(linkage, body, pin)
-    group%equations(2) = pin_equation(linkage, demands_angle, body, pin)
+    group%equations(2) = pin_equation(linkage, demand_angle, body, pin)
     group%equations(3) = line_equation(line)
     call choose_side(linkage, sides, group)
     done%slider(line) = .true.
@@ -167,7 +167,7 @@ contains
     type(group_t) :: group
     integer :: k
 
-    group%kind = groups_dyad
+    group%kind = group_dyad
     group%middle = pin
     group%body = bodies
     group%base = [(known_pin(linkage, bodies(k), done), k=1, 2)]
@@ -178,7 +178,7 @@ contains
     end if
     call choose_side(linkage, sides, group)
     call rebase(linkage, group%body(1), group%base(1), pin)
-    if (any([(drive_of_length(linkage, bodies(k)) > 0, k=1, 2)])) then
+    if (any([(length_drive(linkage, bodies(k)) > 0, k=1, 2)])) then
       call rebase(linkage, group%body(2), group%base(2), pin)
       call write_driven_dyad(linkage, group)
     else
@@ -196,14 +196,14 @@ contains
 
     integer :: k
 
-    group%kind = groups_driven_dyad
+    group%kind = group_driven_dyad
     group%pins = [group%middle]
     group%bodies = group%body
     group%loaded = group%body
     allocate (group%equations(4))
     do k = 1, 2
       group%equations(2*k - 1) = length_equation(linkage, group%body(k), group%middle)
-      group%equations(2*k) = pin_equation(linkage, demands_angle, group%body(k), group%middle)
+      group%equations(2*k) = pin_equation(linkage, demand_angle, group%body(k), group%middle)
     end do
   end subroutine write_driven_dyad
 
@@ -221,7 +221,7 @@ contains
     done%body(bodies) = .true.
     done%order = [done%order, bodies]
     do k = 1, size(bodies)
-      drive = drive_of_length(linkage, bodies(k))
+      drive = length_drive(linkage, bodies(k))
       if (drive > 0) done%drive(drive) = .true.
     end do
     call append_group(linkage, group)

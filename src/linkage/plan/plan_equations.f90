@@ -1,13 +1,13 @@
 !> The equations of a plan, and which of them its groups have used.
 module plan_equations
-  use linkages, only: demands_drive, demands_length, demands_line, demands_turn, drives_length, &
+  use linkages, only: demand_drive, demand_length, demand_line, demand_turn, drive_of_length, &
     equation_t, linkage_t
   use pose_types, only: place_of_pin
   implicit none (type, external)
   private
 
   public :: pin_equation, length_equation, line_equation, turn_equation, drive_equation, &
-    append_equation, is_used, drive_of_length
+    append_equation, is_used, length_drive
 
 contains
 
@@ -30,11 +30,11 @@ contains
 
     integer :: drive
 
-    drive = drive_of_length(linkage, body)
+    drive = length_drive(linkage, body)
     if (drive > 0) then
       equation = drive_equation(drive)
     else
-      equation = pin_equation(linkage, demands_length, body, pin)
+      equation = pin_equation(linkage, demand_length, body, pin)
     end if
   end function length_equation
 
@@ -42,7 +42,7 @@ contains
     integer, intent(in) :: slider
     type(equation_t) :: equation
 
-    equation%kind = demands_line
+    equation%kind = demand_line
     equation%number = slider
   end function line_equation
 
@@ -50,7 +50,7 @@ contains
     integer, intent(in) :: turn
     type(equation_t) :: equation
 
-    equation%kind = demands_turn
+    equation%kind = demand_turn
     equation%number = turn
   end function turn_equation
 
@@ -58,7 +58,7 @@ contains
     integer, intent(in) :: drive
     type(equation_t) :: equation
 
-    equation%kind = demands_drive
+    equation%kind = demand_drive
     equation%number = drive
   end function drive_equation
 
@@ -93,16 +93,16 @@ contains
   end function is_used
 
   !> Number of the drive of the length of a body; 0 if it has none.
-  pure function drive_of_length(linkage, body) result(number)
+  pure function length_drive(linkage, body) result(number)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: body
     integer :: number
 
     do number = 1, size(linkage%drives)
-      if (linkage%drives(number)%kind == drives_length .and. &
+      if (linkage%drives(number)%kind == drive_of_length .and. &
         linkage%drives(number)%body == body) return
     end do
     number = 0
-  end function drive_of_length
+  end function length_drive
 
 end module plan_equations

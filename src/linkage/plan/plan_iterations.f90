@@ -5,10 +5,10 @@ module plan_iterations
   use body_axes, only: other_pin, rebase
   use drawn_places, only: needed_places
   use group_equations, only: unknowns_of
-  use linkages, only: demands_angle, demands_drive, demands_length, demands_line, demands_turn, &
-    drives_angle, drives_length, drives_nothing, drives_slider, equation_t, group_t, &
-    groups_by_newton, linkage_t
-  use plan_equations, only: append_equation, drive_equation, drive_of_length, is_used, &
+  use linkages, only: demand_angle, demand_drive, demand_length, demand_line, demand_turn, &
+    drive_of_angle, drive_of_length, drive_of_nothing, drive_of_slider, equation_t, group_t, &
+    group_by_newton, linkage_t
+  use plan_equations, only: append_equation, drive_equation, length_drive, is_used, &
     line_equation, pin_equation, turn_equation
   use plan_problems, only: new_problem, plan_problem_t, problem_not_drawn, problem_too_free
   use plan_progress, only: append_group, carry_rest, known_pin, progress_t
@@ -52,7 +52,7 @@ contains
       problem%redundant = redundant_bodies(linkage, pack(equations, matching%unknown_of == 0))
       return
     end if
-    group%kind = groups_by_newton
+    group%kind = group_by_newton
     group%pins = pins(pack(part, part <= np))
     group%bodies = bodies(pack(part, part > np) - np)
     group%loaded = group%bodies
@@ -93,7 +93,7 @@ contains
     problem = new_problem(problem_too_free, pack(pins, [(matching%is_loose(2*i - 1) .or. &
       matching%is_loose(2*i), i=1, np)]), pack(bodies, matching%is_loose(2*np + 1:)))
     problem%mobility = count(matching%equation_of == 0) + count(linkage%drives%kind /= &
-      drives_nothing)
+      drive_of_nothing)
   end function what_is_free
 
   !> Bodies of the redundancies so far, and of equations that nothing is left for.
@@ -122,9 +122,9 @@ contains
     integer :: body
 
     body = equation%body
-    if (equation%kind == demands_turn) body = linkage%turns(equation%number)%body
-    if (equation%kind == demands_line) body = linkage%sliders(equation%number)%body
-    if (equation%kind == demands_drive) body = linkage%drives(equation%number)%body
+    if (equation%kind == demand_turn) body = linkage%turns(equation%number)%body
+    if (equation%kind == demand_line) body = linkage%sliders(equation%number)%body
+    if (equation%kind == demand_drive) body = linkage%drives(equation%number)%body
   end function body_of
 
   !> The equations matched with the unknowns of a part.
@@ -161,11 +161,11 @@ contains
 
     do i = 1, size(group%equations)
       select case (group%equations(i)%kind)
-      case (demands_line)
+      case (demand_line)
         done%slider(group%equations(i)%number) = .true.
-      case (demands_turn)
+      case (demand_turn)
         done%turn(group%equations(i)%number) = .true.
-      case (demands_drive)
+      case (demand_drive)
         done%drive(group%equations(i)%number) = .true.
       end select
     end do
@@ -195,11 +195,11 @@ contains
       if (done%body(i)) cycle
       pins = pins_of_body(linkage%bodies(i))
       do k = 2, size(pins)
-        if (.not. is_used(linkage, demands_length, i, pins(k)) .and. (k > 2 .or. &
-          drive_of_length(linkage, i) == 0)) call append_equation(equations, pin_equation( &
-          linkage, demands_length, i, pins(k)))
-        if (.not. is_used(linkage, demands_angle, i, pins(k))) call append_equation(equations, &
-          pin_equation(linkage, demands_angle, i, pins(k)))
+        if (.not. is_used(linkage, demand_length, i, pins(k)) .and. (k > 2 .or. &
+          length_drive(linkage, i) == 0)) call append_equation(equations, pin_equation( &
+          linkage, demand_length, i, pins(k)))
+        if (.not. is_used(linkage, demand_angle, i, pins(k))) call append_equation(equations, &
+          pin_equation(linkage, demand_angle, i, pins(k)))
       end do
     end do
     do i = 1, size(linkage%turns)
@@ -224,27 +224,27 @@ contains
     do i = 1, size(equations)
       associate (equation => equations(i))
         select case (equation%kind)
-        case (demands_length)
+        case (demand_length)
           call mark(pins, equation%pin, 2, 0, has(:, i))
           call mark(pins, linkage%bodies(equation%body)%first_pin, 2, 0, has(:, i))
-        case (demands_angle)
+        case (demand_angle)
           call mark(pins, equation%pin, 2, 0, has(:, i))
           call mark(pins, linkage%bodies(equation%body)%first_pin, 2, 0, has(:, i))
           call mark(bodies, equation%body, 1, 2*size(pins), has(:, i))
-        case (demands_line)
+        case (demand_line)
           call mark_line(equation%number, has(:, i))
-        case (demands_turn)
+        case (demand_turn)
           call mark(bodies, linkage%turns(equation%number)%body, 1, 2*size(pins), has(:, i))
           call mark(bodies, linkage%turns(equation%number)%against, 1, 2*size(pins), has(:, i))
-        case (demands_drive)
+        case (demand_drive)
           associate (drive => linkage%drives(equation%number))
             select case (drive%kind)
-            case (drives_angle)
+            case (drive_of_angle)
               call mark(bodies, drive%body, 1, 2*size(pins), has(:, i))
               call mark(bodies, drive%against, 1, 2*size(pins), has(:, i))
-            case (drives_slider)
+            case (drive_of_slider)
               call mark_line(drive%slider, has(:, i))
-            case (drives_length)
+            case (drive_of_length)
               call mark(pins, linkage%bodies(drive%body)%first_pin, 2, 0, has(:, i))
               call mark(pins, linkage%bodies(drive%body)%last_pin, 2, 0, has(:, i))
             end select

@@ -1,6 +1,6 @@
 !> What may stand in the way of a plan, and the faults that are seen without one.
 module plan_problems
-  use linkages, only: drives_angle, linkage_t
+  use linkages, only: drive_of_angle, linkage_t
   use pose_types, only: pins_of_body
   implicit none (type, external)
   private
@@ -61,7 +61,7 @@ contains
     type(plan_problem_t), allocatable, intent(inout) :: problem
 
     associate (drive => linkage%drives(number))
-      if (drive%kind /= drives_angle .or. drive%against > 0) return
+      if (drive%kind /= drive_of_angle .or. drive%against > 0) return
       if (any(linkage%is_ground(pins_of_body(linkage%bodies(drive%body))))) return
       if (any(linkage%turns%body == drive%body .and. linkage%turns%against == 0)) return
       problem = new_problem(problem_coupler_driven, bodies=[drive%body], number=number)

@@ -1,6 +1,6 @@
 !> What a plan has placed so far, what follows from that, and the groups that it adds.
 module plan_progress
-  use linkages, only: demands_angle, demands_length, drives_nothing, group_t, groups_carried, &
+  use linkages, only: demand_angle, demand_length, drive_of_nothing, group_t, group_carried, &
     linkage_t
   use plan_equations, only: append_equation, is_used, pin_equation
   use pose_types, only: pins_of_body
@@ -32,7 +32,7 @@ contains
     done%body = .false.
     done%slider = .false.
     done%turn = .false.
-    done%drive = linkage%drives%kind == drives_nothing
+    done%drive = linkage%drives%kind == drive_of_nothing
     allocate (done%order(0))
   end function new_progress
 
@@ -67,14 +67,14 @@ contains
     pins = pins_of_body(linkage%bodies(body))
     do i = 2, size(pins)
       if (.not. done%pin(pins(i)) .or. any(used == pins(i))) cycle
-      if (.not. is_used(linkage, demands_length, body, pins(i))) call append_equation( &
-        linkage%redundancies, pin_equation(linkage, demands_length, body, pins(i)))
-      if (.not. is_used(linkage, demands_angle, body, pins(i))) call append_equation( &
-        linkage%redundancies, pin_equation(linkage, demands_angle, body, pins(i)))
+      if (.not. is_used(linkage, demand_length, body, pins(i))) call append_equation( &
+        linkage%redundancies, pin_equation(linkage, demand_length, body, pins(i)))
+      if (.not. is_used(linkage, demand_angle, body, pins(i))) call append_equation( &
+        linkage%redundancies, pin_equation(linkage, demand_angle, body, pins(i)))
     end do
     pins = pack(pins, .not. done%pin(pins))
     if (size(pins) == 0) return
-    group%kind = groups_carried
+    group%kind = group_carried
     group%base(1) = linkage%bodies(body)%first_pin
     group%body(1) = body
     group%pins = pins

@@ -1,8 +1,8 @@
 !> Which of two places a pin has: from a card, else from the drawing.
 module plan_sides
   use kinds, only: wp
-  use linkages, only: cross, group_t, groups_by_newton, groups_driven_dyad, groups_dyad, &
-    groups_on_line, groups_through_pin, linkage_t, turned
+  use linkages, only: cross, group_t, group_by_newton, group_driven_dyad, group_dyad, &
+    group_on_line, group_through_pin, linkage_t, turned
   use plan_problems, only: new_problem, plan_problem_t, problem_no_side, problem_other_bases, &
     problem_side_idle
   use pose_types, only: pins_of_body
@@ -90,7 +90,7 @@ contains
       call take_drawn_side(linkage, group, is_known)
       undecided%groups = [undecided%groups, g]
       undecided%is_open = [undecided%is_open, .not. is_known .and. group%kind /= &
-        groups_through_pin]
+        group_through_pin]
     end do
     undecided%cards = pack([(i, i=1, size(sides))], is_idle)
   end function find_undecided
@@ -100,7 +100,7 @@ contains
     type(group_t), intent(in) :: group
     logical :: is
 
-    is = any(group%kind == [groups_on_line, groups_through_pin])
+    is = any(group%kind == [group_on_line, group_through_pin])
   end function is_on_line
 
   !> The side of a group in the drawing, if its pins are drawn.
@@ -228,7 +228,7 @@ contains
     type(group_t), intent(in) :: group
     logical :: has
 
-    has = any(group%kind == [groups_dyad, groups_driven_dyad, groups_on_line, groups_through_pin])
+    has = any(group%kind == [group_dyad, group_driven_dyad, group_on_line, group_through_pin])
   end function has_two_places
 
   !> The bodies that iterations place together with a pin.
@@ -241,7 +241,7 @@ contains
 
     bodies = [integer ::]
     do g = 1, size(linkage%groups)
-      if (linkage%groups(g)%kind /= groups_by_newton) cycle
+      if (linkage%groups(g)%kind /= group_by_newton) cycle
       if (any(linkage%groups(g)%pins == pin)) bodies = linkage%groups(g)%bodies
     end do
   end function bodies_placed_with

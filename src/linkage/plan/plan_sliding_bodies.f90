@@ -3,7 +3,7 @@
 module plan_sliding_bodies
   use body_axes, only: has_pin, other_pin, rebase
   use kinds, only: wp
-  use linkages, only: group_t, groups_cross_slide, groups_through_pin, linkage_t
+  use linkages, only: group_t, group_cross_slide, group_through_pin, linkage_t
   use plan_equations, only: line_equation, turn_equation
   use plan_progress, only: append_group, carry_rest, known_pin, line_is_known, progress_t, turned_by
   use plan_sides, only: choose_side, side_t
@@ -35,7 +35,7 @@ contains
       other = other_pin(linkage%bodies(body), base)
       call rebase(linkage, body, base, other)
       done%order = [done%order, body]
-      group%kind = groups_through_pin
+      group%kind = group_through_pin
       group%base(1) = base
       group%middle = linkage%sliders(s)%pin
       group%body(1) = body
@@ -80,7 +80,7 @@ contains
           call rebase(linkage, body, linkage%sliders(s)%pin, other_pin(linkage%bodies(body), &
             linkage%sliders(s)%pin))
           done%order = [done%order, body]
-          group%kind = groups_cross_slide
+          group%kind = group_cross_slide
           group%body(1) = body
           group%middle = linkage%sliders(k)%pin
           group%slider = [s, k]

@@ -2,9 +2,9 @@
 !! two pins that are placed.
 module plan_turned_bodies
   use body_axes, only: other_pin, rebase
-  use linkages, only: demands_angle, demands_length, drives_angle, drives_slider, equation_t, &
-    group_t, groups_placed, groups_spanned, groups_turned, linkage_t
-  use plan_equations, only: append_equation, drive_equation, drive_of_length, is_used, &
+  use linkages, only: demand_angle, demand_length, drive_of_angle, drive_of_slider, equation_t, &
+    group_t, group_placed, group_spanned, group_turned, linkage_t
+  use plan_equations, only: append_equation, drive_equation, length_drive, is_used, &
     line_equation, pin_equation, turn_equation
   use plan_progress, only: append_group, carry_rest, known_pin, line_is_known, progress_t, turned_by
   use pose_types, only: pins_of_body
@@ -25,7 +25,7 @@ contains
 
     if (size(linkage%drives) == 0) return
     associate (drive => linkage%drives(1))
-      if (drive%kind /= drives_angle .or. drive%against > 0) return
+      if (drive%kind /= drive_of_angle .or. drive%against > 0) return
       crank = drive%body
     end associate
     pins = pins_of_body(linkage%bodies(crank))
@@ -56,8 +56,9 @@ contains
     has_found = .false.
     do d = 1, size(linkage%drives)
       if (done%drive(d)) cycle
-      if (linkage%drives(d)%kind == drives_angle) call turn_driven_body(linkage, d, done, has_found)
-      if (linkage%drives(d)%kind == drives_slider) call place_driven_slider(linkage, d, done, &
+      if (linkage%drives(d)%kind == drive_of_angle) call turn_driven_body(linkage, d, done, &
+        has_found)
+      if (linkage%drives(d)%kind == drive_of_slider) call place_driven_slider(linkage, d, done, &
         has_found)
       if (has_found) return
     end do
@@ -114,7 +115,7 @@ contains
     pin = linkage%sliders(slider)%pin
     if (done%slider(slider) .or. done%pin(pin)) return
     if (.not. line_is_known(linkage, slider, done)) return
-    group%kind = groups_placed
+    group%kind = group_placed
     group%pins = [pin]
     group%slider(1) = slider
     allocate (group%bodies(0), group%loaded(0), group%equations(2))
@@ -136,7 +137,7 @@ contains
 
     type(group_t) :: group
 
-    group%kind = groups_turned
+    group%kind = group_turned
     group%base(1) = linkage%bodies(body)%first_pin
     group%body(1) = body
     allocate (group%pins(0), group%equations(1))
@@ -185,22 +186,22 @@ contains
       pins = pins_of_body(linkage%bodies(b))
       pins = pack(pins, done%pin(pins))
       if (size(pins) < 2) cycle
-      if (drive_of_length(linkage, b) > 0 .and. .not. all(done%pin([linkage%bodies(b)%first_pin, &
+      if (length_drive(linkage, b) > 0 .and. .not. all(done%pin([linkage%bodies(b)%first_pin, &
         linkage%bodies(b)%last_pin]))) cycle
       call rebase(linkage, b, pins(1), pins(2))
       done%order = [done%order, b]
-      group%kind = groups_spanned
+      group%kind = group_spanned
       group%base(1) = pins(1)
       group%middle = pins(2)
       group%body(1) = b
       allocate (group%pins(0), group%equations(1))
       group%bodies = [b]
       group%loaded = [b]
-      group%equations(1) = pin_equation(linkage, demands_angle, b, pins(2))
+      group%equations(1) = pin_equation(linkage, demand_angle, b, pins(2))
       ! A ram has no length of its own: its drive is what is redundant.
-      if (drive_of_length(linkage, b) == 0 .and. .not. is_used(linkage, demands_length, b, &
+      if (length_drive(linkage, b) == 0 .and. .not. is_used(linkage, demand_length, b, &
         pins(2))) call append_equation(linkage%redundancies, pin_equation(linkage, &
-        demands_length, b, pins(2)))
+        demand_length, b, pins(2)))
       done%body(b) = .true.
       call append_group(linkage, group)
       call carry_rest(linkage, b, [pins(2)], done)

@@ -3,7 +3,7 @@ module redundancies
   use errors, only: error_of_reach, error_t, set_error
   use group_equations, only: misfit_of
   use kinds, only: wp
-  use linkages, only: demands_angle, demands_length, demands_turn, linkage_t
+  use linkages, only: demand_angle, demand_length, demand_turn, linkage_t
   use pose_types, only: pose_t
   use text, only: to_string
   implicit none (type, external)
@@ -49,7 +49,7 @@ contains
 
     associate (equation => linkage%redundancies(number))
       misfit = misfit_of(linkage, equation, pose, origin, crank)
-      if (equation%kind == demands_turn) misfit = misfit*linkage%bodies(linkage%turns( &
+      if (equation%kind == demand_turn) misfit = misfit*linkage%bodies(linkage%turns( &
         equation%number)%body)%length
     end associate
   end function misfit_of_redundancy
@@ -97,9 +97,9 @@ contains
 
     associate (equation => linkage%redundancies(number))
       select case (equation%kind)
-      case (demands_length, demands_angle)
+      case (demand_length, demand_angle)
         body = equation%body
-      case (demands_turn)
+      case (demand_turn)
         body = linkage%turns(equation%number)%body
       case default
         body = linkage%sliders(equation%number)%body

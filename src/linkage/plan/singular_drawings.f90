@@ -5,9 +5,9 @@ module singular_drawings
   use dense_factor, only: dense_factor_t, factorize, solve
   use group_equations, only: farthest_arm, find_gradient, gradient_t, misfit_of
   use kinds, only: wp
-  use linkages, only: demands_angle, demands_length, drives_angle, drives_nothing, &
+  use linkages, only: demand_angle, demand_length, drive_of_angle, drive_of_nothing, &
     equation_t, linkage_t, reference_point, turned
-  use plan_equations, only: append_equation, drive_equation, drive_of_length, line_equation, &
+  use plan_equations, only: append_equation, drive_equation, length_drive, line_equation, &
     pin_equation, turn_equation
   use pose_types, only: drawn_pose, pins_of_body, pose_t
   implicit none (type, external)
@@ -49,8 +49,8 @@ contains
     call list_equations(linkage, equations)
     span = max(maxval(abs(start%pin)), maxval(linkage%bodies%length))
     unit = span
-    if (linkage%drives(1)%kind == drives_angle) unit = 1.0_wp/degree
-    if (linkage%drives(1)%kind == drives_nothing) unit = 0.0_wp
+    if (linkage%drives(1)%kind == drive_of_angle) unit = 1.0_wp/degree
+    if (linkage%drives(1)%kind == drive_of_nothing) unit = 0.0_wp
     moved = 0
     do i = 1, size(ways)
       pose = start
@@ -79,9 +79,9 @@ contains
     do b = 1, size(linkage%bodies)
       pins = pins_of_body(linkage%bodies(b))
       do k = 2, size(pins)
-        if (k > 2 .or. drive_of_length(linkage, b) == 0) call append_equation(equations, &
-          pin_equation(linkage, demands_length, b, pins(k)))
-        call append_equation(equations, pin_equation(linkage, demands_angle, b, pins(k)))
+        if (k > 2 .or. length_drive(linkage, b) == 0) call append_equation(equations, &
+          pin_equation(linkage, demand_length, b, pins(k)))
+        call append_equation(equations, pin_equation(linkage, demand_angle, b, pins(k)))
       end do
     end do
     do k = 1, size(linkage%turns)
@@ -91,7 +91,7 @@ contains
       call append_equation(equations, line_equation(k))
     end do
     do k = 1, size(linkage%drives)
-      if (linkage%drives(k)%kind /= drives_nothing) call append_equation(equations, &
+      if (linkage%drives(k)%kind /= drive_of_nothing) call append_equation(equations, &
         drive_equation(k))
     end do
   end subroutine list_equations

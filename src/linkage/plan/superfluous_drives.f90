@@ -3,9 +3,9 @@ module superfluous_drives
   use constants, only: degree
   use errors, only: error_t
   use kinds, only: wp
-  use linkages, only: drives_angle, linkage_t, reference_point
+  use linkages, only: drive_of_angle, linkage_t, reference_point
   use pose_types, only: pose_t
-  use poses, only: place_parts
+  use poses, only: place_pins
   use redundancies, only: misfit_of_redundancy
   implicit none (type, external)
   private
@@ -37,7 +37,7 @@ contains
 
     number = 0
     mobility = size(linkage%drives)
-    call place_parts(linkage, crank, pose, error)
+    call place_pins(linkage, crank, pose, error)
     if (allocated(error)) return
     span = max(maxval(abs(pose%pin)), maxval(linkage%bodies%length))
     angle = 0.01_wp
@@ -45,8 +45,8 @@ contains
       step = angle*degree*span
       moved = linkage
       moved%drives(k)%phase = moved%drives(k)%phase + merge(angle, step, &
-        linkage%drives(k)%kind == drives_angle)
-      call place_parts(moved, crank, other, error)
+        linkage%drives(k)%kind == drive_of_angle)
+      call place_pins(moved, crank, other, error)
       if (allocated(error)) then
         number = 0
         return

@@ -3,7 +3,7 @@ module frame_forces
   use group_equations, only: line_axis
   use joint_forces, only: force_at_pin, joint_forces_t
   use kinds, only: wp
-  use linkages, only: cross, drives_angle, drives_slider, linkage_t, normal_to, reference_point
+  use linkages, only: cross, drive_of_angle, drive_of_slider, linkage_t, normal_to, reference_point
   use pose_types, only: pins_of_body
   use poses, only: pose_t
   implicit none (type, external)
@@ -41,7 +41,7 @@ contains
       if (linkage%turns(t)%against == 0) load(3) = load(3) - forces%couple(t)
     end do
     do d = 1, size(linkage%drives)
-      if (linkage%drives(d)%kind == drives_angle .and. linkage%drives(d)%against == 0) load(3) = &
+      if (linkage%drives(d)%kind == drive_of_angle .and. linkage%drives(d)%against == 0) load(3) = &
         load(3) - forces%drive(d)
     end do
   end function find_frame_load
@@ -80,8 +80,8 @@ contains
         axis = line_axis(linkage, pose, i)
         force = forces%guide(i)*normal_to(axis)
         do d = 1, size(linkage%drives)
-          if (linkage%drives(d)%kind == drives_slider .and. linkage%drives(d)%slider == i) force = &
-            force + forces%drive(d)*axis
+          if (linkage%drives(d)%kind == drive_of_slider .and. linkage%drives(d)%slider == i) &
+            force = force + forces%drive(d)*axis
         end do
         ! This is the force on the pin.
         if (slider%body == 0) force = -force

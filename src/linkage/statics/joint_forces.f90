@@ -4,8 +4,8 @@ module joint_forces
   use group_equations, only: factorize_group, find_gradient, gradient_t
   use inertia_loads, only: load_t
   use kinds, only: wp
-  use linkages, only: cross, demands_angle, demands_drive, demands_length, demands_line, &
-    demands_turn, drives_length, group_t, groups_carried, groups_dyad, is_dyad_linkage, &
+  use linkages, only: cross, demand_angle, demand_drive, demand_length, demand_line, &
+    demand_turn, drive_of_length, group_t, group_carried, group_dyad, is_dyad_linkage, &
     linkage_t, normal_to
   use pose_types, only: arm_to_pin
   use poses, only: arm_to_middle, dead_point_sine, pose_t
@@ -65,9 +65,9 @@ contains
     end if
     do i = size(linkage%groups), 1, -1
       select case (linkage%groups(i)%kind)
-      case (groups_dyad)
+      case (group_dyad)
         call solve_dyad(linkage, linkage%groups(i), pose, pose%sine(i), load, carried, forces)
-      case (groups_carried)
+      case (group_carried)
         call load_body(linkage, linkage%groups(i), pose, carried, load, forces)
       case default
         call solve_group(linkage, linkage%groups(i), pose, is_passed, carried, load, forces)
@@ -265,16 +265,16 @@ contains
       end if
       associate (number => group%equations(i)%number)
         select case (group%equations(i)%kind)
-        case (demands_length, demands_angle)
+        case (demand_length, demand_angle)
           call add_force(linkage, group%equations(i)%body, group%equations(i)%pin, &
             -lambda(i)*gradient%by_pin(:, 1), forces)
-        case (demands_line)
+        case (demand_line)
           forces%guide(number) = lambda(i)
-        case (demands_turn)
+        case (demand_turn)
           forces%couple(number) = lambda(i)
-        case (demands_drive)
+        case (demand_drive)
           forces%drive(number) = lambda(i)
-          if (linkage%drives(number)%kind == drives_length) call add_force(linkage, &
+          if (linkage%drives(number)%kind == drive_of_length) call add_force(linkage, &
             linkage%drives(number)%body, gradient%pin(1), -lambda(i)*gradient%by_pin(:, 1), forces)
         end select
       end associate

@@ -1,9 +1,9 @@
-!> A linkage that starts from rest: what resists its motion is the whole of it, whatever the speed.
+!> Loads of a linkage that starts from rest: resistances act with their full size at once.
 module starting_linkages
   use applied_load_types, only: applies_along, applies_force
   use group_equations, only: farthest_arm
   use kinds, only: wp
-  use linkages, only: drives_angle, linkage_t
+  use linkages, only: drive_of_angle, linkage_t
   implicit none (type, external)
   private
 
@@ -28,7 +28,7 @@ contains
     integer :: b
 
     span = maxval([(farthest_arm(linkage%bodies(b)), b=1, size(linkage%bodies))])
-    if (linkage%drives(1)%kind == drives_angle) then
+    if (linkage%drives(1)%kind == drive_of_angle) then
       turning = starting_speed*rounding
       sliding = turning*span
     else

@@ -15,7 +15,7 @@ module drive_cards
   implicit none (type, external)
   private
 
-  public :: drive_t, branch_t, read_drive, read_branch, kind_of_drive, moves_along
+  public :: drive_card_t, branch_t, read_drive, read_branch, kind_of_drive, moves_along
   public :: drive_angle, drive_relative, drive_slider, drive_ram
   public :: branch_left, branch_right, branch_forward, branch_backward
 
@@ -28,14 +28,14 @@ module drive_cards
   integer, parameter :: branch_left = 1, branch_right = 2, branch_forward = 3, branch_backward = 4
   character(len=*), parameter :: branch_words = "left right forward backward"
 
-  !> What happens at change points, in the order of the changes_… constants.
+  !> What happens at change points, in the order of the rule_… constants.
   character(len=*), parameter :: change_point_words = "through stop branch"
 
   !> Keys of the first DRIVE alone.
   character(len=*), parameter :: keys_of_first(2) = [character(len=13) :: "law", "change_points"]
 
   !> One DRIVE card. A word without a line is not on the card.
-  type :: drive_t
+  type :: drive_card_t
     type(token_t) :: keyword
     integer :: kind = 0            !! one of the drive_… constants; 0: it cannot be read
     type(token_t) :: subject       !! link, or pin of a slider
@@ -54,7 +54,7 @@ module drive_cards
     integer :: link = 0            !! number of `subject` in the model's list; 0: it is a pin
     integer :: against_link = 0    !! number of `against` in the model's list; 0: it is none
     integer :: slider = 0          !! number of the slider in the model's list; 0: it is none
-  end type drive_t
+  end type drive_card_t
 
   !> A BRANCH card about a pin.
   type :: branch_t
@@ -111,7 +111,7 @@ contains
     type(card_t), intent(in) :: first                 !! the first of the deck, perhaps the same
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
-    type(drive_t), intent(out) :: drive               !! as read; the names are not looked up
+    type(drive_card_t), intent(out) :: drive               !! as read; the names are not looked up
 
     type(token_t) :: nowhere
     logical :: fine, known_keys
@@ -157,7 +157,7 @@ contains
   pure subroutine read_keys_of_first(card, diagnostics, drive)
     type(card_t), intent(in) :: card
     type(diagnostics_t), intent(inout) :: diagnostics
-    type(drive_t), intent(inout) :: drive
+    type(drive_card_t), intent(inout) :: drive
 
     integer :: i
 
@@ -182,7 +182,7 @@ contains
   pure subroutine read_subject(card, diagnostics, drive)
     type(card_t), intent(in) :: card
     type(diagnostics_t), intent(inout) :: diagnostics
-    type(drive_t), intent(inout) :: drive
+    type(drive_card_t), intent(inout) :: drive
 
     integer :: words
 
@@ -211,7 +211,7 @@ contains
     integer, intent(in) :: first_kind !! of the first drive
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
-    type(drive_t), intent(inout) :: drive
+    type(drive_card_t), intent(inout) :: drive
 
     integer :: dimension(4), i
     logical :: fine
@@ -245,7 +245,7 @@ contains
                                               !! are lengths
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
-    type(drive_t), intent(inout) :: drive
+    type(drive_card_t), intent(inout) :: drive
 
     type(unit_t) :: length, angle, bare, measure
     real(wp) :: value

@@ -13,7 +13,7 @@ module joint_cards
   implicit none (type, external)
   private
 
-  public :: drawn_pin_t, weld_t, guide_t, slider_t
+  public :: drawn_pin_t, weld_t, guide_t, slider_card_t
   public :: read_pin, read_weld, read_guide, read_slider
 
   !> Where a moving pin is in the drawing.
@@ -38,7 +38,7 @@ module joint_cards
   end type guide_t
 
   !> A block at a pin that slides along a guide or a link.
-  type :: slider_t
+  type :: slider_card_t
     type(token_t) :: pin             !! without a line if the card lacks it
     type(token_t) :: on              !! guide or link that it slides along; likewise
     type(token_t) :: turned          !! link that cannot turn on the block; without a line if all
@@ -49,7 +49,7 @@ module joint_cards
     integer :: guide = 0             !! number of `on` in the model's list; 0: it is a link
     integer :: link = 0              !! the same; 0: it is a guide
     integer :: turned_link = 0       !! number of `turned` in the model's list; 0: none
-  end type slider_t
+  end type slider_card_t
 
 contains
 
@@ -132,7 +132,7 @@ contains
     type(card_t), intent(in) :: card                  !! the SLIDER card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
-    type(slider_t), intent(out) :: slider             !! as read; the names are not looked up
+    type(slider_card_t), intent(out) :: slider             !! as read; the names are not looked up
 
     type(token_t) :: nowhere
     logical :: fine

@@ -14,11 +14,11 @@ module spring_cards
   implicit none (type, external)
   private
 
-  public :: spring_t, is_spring_card, read_spring
+  public :: spring_card_t, is_spring_card, read_spring
 
   !> A spring or a damper. Its coordinate is the distance of its ends, or the angle of its second
   !! link less that of its first: of one link the angle of this.
-  type :: spring_t
+  type :: spring_card_t
     type(token_t) :: keyword
     type(token_t) :: name                !! without a line if the card lacks it
     logical :: damps = .false.           !! a damper
@@ -35,7 +35,7 @@ module spring_cards
     type(token_t) :: load_word           !! value of `force=` or `torque=`; else without a line
     real(wp) :: load = 0.0_wp            !! in the drawing: tension, or against a growing angle [N]
                                          !! or [N m]
-  end type spring_t
+  end type spring_card_t
 
 contains
 
@@ -56,7 +56,7 @@ contains
     logical, intent(in) :: turns                      !! it is torsional: its last word is a link
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
-    type(spring_t), intent(out) :: spring             !! as read; names are not looked up
+    type(spring_card_t), intent(out) :: spring             !! as read; names are not looked up
 
     type(token_t) :: none
     logical :: fine, known_keys, has_load, is_stiff

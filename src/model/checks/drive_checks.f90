@@ -3,7 +3,7 @@ module drive_checks
   use body_checks, only: seek_link
   use diagnostics, only: add_error, diagnostics_t, has_errors
   use drive_cards, only: branch_forward, branch_t, drive_angle, drive_ram, drive_relative, &
-    drive_slider, drive_t
+    drive_slider, drive_card_t
   use joint_checks, only: seek_pin
   use models, only: model_t
   use name_checks, only: pin_names
@@ -28,7 +28,7 @@ contains
     type(model_t), intent(inout) :: model             !! numbers of links and sliders are set
 
     type(name_index_t) :: links, pins, grounds
-    type(drive_t) :: drive
+    type(drive_card_t) :: drive
     integer :: i
 
     links = new_name_index(token_texts(model%links%name))
@@ -77,7 +77,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: links, pins, grounds
-    type(drive_t), intent(inout) :: drive
+    type(drive_card_t), intent(inout) :: drive
 
     integer :: i, grounded
 
@@ -112,7 +112,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: links, pins
-    type(drive_t), intent(inout) :: drive
+    type(drive_card_t), intent(inout) :: drive
 
     integer :: i
     logical :: known, known_way
@@ -183,7 +183,7 @@ contains
   end subroutine refuse_same_drives
 
   pure function are_same(a, b) result(same)
-    type(drive_t), intent(in) :: a, b
+    type(drive_card_t), intent(in) :: a, b
     logical :: same
 
     select case (a%kind)

@@ -1,7 +1,7 @@
 !> Checks of PIN, WELD, CLAMP and SLIDER cards: the pins, links and guides that they name.
 module joint_checks
   use diagnostics, only: add_error, diagnostics_t
-  use joint_cards, only: slider_t, weld_t
+  use joint_cards, only: slider_card_t, weld_t
   use kinds, only: wp
   use link_shapes, only: find_drawn_place
   use models, only: is_end_of_spring, model_t
@@ -28,7 +28,7 @@ contains
 
     type(name_index_t) :: links, guides, pins, grounds
     type(weld_t) :: weld
-    type(slider_t) :: slider
+    type(slider_card_t) :: slider
     integer :: i
 
     links = new_name_index(token_texts(model%links%name))
@@ -296,7 +296,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: links, guides, pins, grounds
-    type(slider_t), intent(inout) :: slider
+    type(slider_card_t), intent(inout) :: slider
 
     integer :: ground
     logical :: known
@@ -325,7 +325,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: links, guides
-    type(slider_t), intent(inout) :: slider
+    type(slider_card_t), intent(inout) :: slider
 
     type(string_t), allocatable :: names(:)
     integer :: i
@@ -356,7 +356,7 @@ contains
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: links
     logical, intent(in) :: known !! the pin is
-    type(slider_t), intent(inout) :: slider
+    type(slider_card_t), intent(inout) :: slider
 
     call look_up(slider%turned, links, "link", diagnostics, slider%turned_link)
     if (slider%turned_link == 0 .or. .not. known) return

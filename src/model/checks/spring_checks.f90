@@ -10,7 +10,7 @@ module spring_checks
   use models, only: model_t, needs_frequencies, needs_response
   use name_checks, only: look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
-  use spring_cards, only: is_spring_card, read_spring, spring_t
+  use spring_cards, only: is_spring_card, read_spring, spring_card_t
   use text, only: same_word, to_string
   use tokens, only: token_t, token_texts
   implicit none (type, external)
@@ -83,7 +83,7 @@ contains
                                                       !! set
 
     type(name_index_t) :: links, pins, grounds
-    type(spring_t) :: spring
+    type(spring_card_t) :: spring
     logical :: fine
     integer :: i, k
 
@@ -142,7 +142,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: grounds
-    type(spring_t), intent(in) :: spring
+    type(spring_card_t), intent(in) :: spring
     logical, intent(out) :: fine
 
     logical :: bends
@@ -225,7 +225,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: grounds
-    type(spring_t), intent(in) :: spring
+    type(spring_card_t), intent(in) :: spring
     logical, intent(out) :: fine
 
     integer :: k
@@ -267,7 +267,7 @@ contains
   pure subroutine check_drawn(diagnostics, model, spring)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
-    type(spring_t), intent(in) :: spring
+    type(spring_card_t), intent(in) :: spring
 
     real(wp), allocatable :: given(:), drawn(:)
     logical, allocatable :: known(:)
@@ -319,7 +319,7 @@ contains
 
   pure subroutine refuse_undrawn(diagnostics, spring, key, name)
     type(diagnostics_t), intent(inout) :: diagnostics
-    type(spring_t), intent(in) :: spring
+    type(spring_card_t), intent(in) :: spring
     character(len=*), intent(in) :: key  !! that gives the free length or angle
     character(len=*), intent(in) :: name !! of the pin or point
 

@@ -16,7 +16,7 @@ module response_cards
   implicit none (type, external)
   private
 
-  public :: damping_card_t, gauge_t, omitted_terms_t, read_damping, read_gauge, &
+  public :: damping_card_t, gauge_card_t, omitted_terms_t, read_damping, read_gauge, &
     read_omitted_terms, is_response_form, side_left, side_right, response_form
 
   ! In the order of the words in the table of cards.
@@ -36,14 +36,14 @@ module response_cards
   end type damping_card_t
 
   !> A strain gauge on a face of a link.
-  type :: gauge_t
+  type :: gauge_card_t
     type(token_t) :: name      !! without a line if the card lacks it
     type(token_t) :: link_name !! likewise
     integer :: link = 0        !! number in the model's list; 0: unknown
     real(wp) :: at = 0.0_wp    !! from the first pin of the LINK card along the link [m]
     type(token_t) :: at_word   !! value of `at=`, or the keyword without one
     integer :: side = side_right !! looking from the first pin of the LINK card to the second
-  end type gauge_t
+  end type gauge_card_t
 
   !> Terms that are left out of the equations of the response.
   type :: omitted_terms_t
@@ -112,7 +112,7 @@ contains
     type(card_t), intent(in) :: card                  !! the GAUGE card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
-    type(gauge_t), intent(out) :: gauge               !! as read; the link is not looked up
+    type(gauge_card_t), intent(out) :: gauge               !! as read; the link is not looked up
 
     type(card_kind_t) :: kind
     real(wp) :: place(2)

@@ -6,7 +6,7 @@ module geometry_report
   use points_report, only: point_names
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, report_record_t, table_plan_t, whole_table_t
-  use spring_cards, only: spring_t
+  use spring_cards, only: spring_card_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
@@ -173,7 +173,7 @@ contains
   subroutine add_spring(variant, layout, spring, position, rows)
     type(variant_results_t), intent(in) :: variant
     type(table_layout_t), intent(in) :: layout
-    type(spring_t), intent(in) :: spring
+    type(spring_card_t), intent(in) :: spring
     integer, intent(in) :: position
     type(rows_t), intent(inout) :: rows
 

@@ -48,8 +48,7 @@ module slow_motions
     real(wp), allocatable :: inverse(:, :, :)     !! (samples, number, number) (XᵀX)⁻¹
     real(wp), allocatable :: square(:)            !! (unknowns) 1/ω² of the other deformations by
                                                   !! themselves; 0 of the slow ones [s²]
-    !> Matrices at the samples of a coarse grid: (samples, number², matrices) M, G, W, XᵀX, XᵀK_GX
-    !! per ω2² and of the constant loads, G', XᵀCX, and XᵀCX' with XᵀK_GX per ω2 of dampers
+    !> (samples of the coarse grid, number², matrices) in the order of `of_mass` to `of_drift`
     real(wp), allocatable :: sums(:, :, :)
     !> (5 number, 5 number, samples of the coarse grid) of the fast deformations that follow; not
     !! there where they are left out
@@ -58,8 +57,16 @@ module slow_motions
     real(wp), allocatable :: form(:, :, :)
   end type slow_basis_t
 
-  integer, parameter :: of_mass = 1, of_g = 2, of_w = 3, of_stiffness = 4, of_speed = 5, &
-    of_loads = 6, of_slope = 7, of_rate = 8, of_drift = 9, matrices = 9
+  integer, parameter :: of_mass = 1      !! M
+  integer, parameter :: of_g = 2         !! G
+  integer, parameter :: of_w = 3         !! W
+  integer, parameter :: of_stiffness = 4 !! XᵀX
+  integer, parameter :: of_speed = 5     !! XᵀK_GX per ω2²
+  integer, parameter :: of_loads = 6     !! XᵀK_GX of the constant loads
+  integer, parameter :: of_slope = 7     !! G'
+  integer, parameter :: of_rate = 8      !! XᵀCX
+  integer, parameter :: of_drift = 9     !! XᵀCX', and XᵀK_GX per ω2 of dampers
+  integer, parameter :: matrices = 9
 
   !> Steps of the collocation at one speed.
   type :: slow_motion_t

@@ -21,10 +21,11 @@ module periodic_solver
 
   integer, parameter :: most_iterations = 60
 
-  !> Begun anew from the residual of the solution, whose rounding GMRES does not see: three times at
-  !! most, and not if the iterations do not get anywhere. A solution that is not right to so much is
-  !! none.
+  !> GMRES does not see the rounding of its solution: it begins anew from the residual, so often at
+  !! most.
   integer, parameter :: most_rounds = 3
+
+  !> A solution with a larger relative residual is none.
   real(wp), parameter :: no_solution = 1.0e-2_wp
 
   !> Where a harmonic is near the own frequency of a fast deformation, the diagonal is taken as far

@@ -87,8 +87,8 @@ module steady_responses
   !! coarser: at a place along a link both solutions may happen to be equally wrong.
   real(wp), parameter :: least_share = 0.1_wp, coarsest_share = 1.0e-7_wp
 
-  !> Iterations that stop above their tolerance and this have not got on: rounding is far below. A
-  !! remainder says little of quantities that high harmonics or a link that bends little make up.
+  !> Iterations have stagnated if they stop above their tolerance and this, which rounding does not
+  !! reach. The residual says little of quantities of high harmonics or of stiff links.
   real(wp), parameter :: stuck = 1.0e-11_wp
 
   !> Errors are to fall by this each time that orders or samples are raised. The second time that

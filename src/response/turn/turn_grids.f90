@@ -68,10 +68,9 @@ module turn_grids
     integer, allocatable :: elongation(:)  !! (bodies) number of its elongation; 0: rigid
     integer, allocatable :: owner(:)       !! (unknowns) body to whose elastic energy it belongs;
                                            !! 0: to several
-    !> (samples, deformations, border) deformations of the ends of parts, and of springs, in units
-    !! of those of a unit unknown, and behind them of dampers [m] or [rad], where there are more of
-    !! them than border unknowns: `elongation` is a number among them then. Not allocated: they are
-    !! the border unknowns
+    !> (samples, deformations, border) deformations of parts and springs per border unknown, scaled
+    !! to unit stiffness; behind them those of dampers [m] or [rad]. `elongation` numbers them. Not
+    !! allocated: the border unknowns themselves are the deformations.
     real(wp), allocatable :: weighted(:, :, :)
     integer, allocatable :: deformed(:)    !! (deformations) body; 0: a spring or a damper
     type(damper_t), allocatable :: dampers(:)

@@ -1,4 +1,4 @@
-!> What the ranks do that do not lead: they wait for jobs that the leader announces, and help.
+!> The loop of the worker ranks: they wait for jobs that the leader announces, and help.
 !!
 !! An announcement is complete in itself: the deck, and what the job is about. A new kind of job has
 !! a word of its own, and a case in `serve_leader`.

@@ -5,7 +5,7 @@ module assembly_faults
   use drawn_cranks, only: starting_cranks
   use errors, only: error_of_dead_point
   use kinds, only: wp
-  use linkage_parts, only: assembly_t
+  use linkage_builder, only: assembly_t
   use linkages, only: linkage_t, turn_t
   use models, only: model_t
   use pose_types, only: pins_of_body

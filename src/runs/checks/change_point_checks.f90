@@ -3,7 +3,7 @@ module change_point_checks
   use bridges, only: change_point_t, change_points_of
   use deck_lengths, only: crank_text
   use diagnostics, only: add_warning, diagnostics_t
-  use linkages, only: changes_branch
+  use linkages, only: rule_branch
   use mechanisms, only: mechanism_t
   use models, only: model_t, needs_positions, rule_at_change_points
   use plan_words, only: group_words
@@ -27,7 +27,7 @@ contains
     type(change_point_t), allocatable :: points(:)
     integer :: i
 
-    if (rule_at_change_points(model) /= changes_branch .or. .not. needs_positions(model)) return
+    if (rule_at_change_points(model) /= rule_branch .or. .not. needs_positions(model)) return
     if (model%drives(1)%change_points > 0) return
     call change_points_of(mechanism%linkage, minval(model%crank%value), maxval(model%crank%value), &
       points)

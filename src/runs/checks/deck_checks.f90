@@ -14,7 +14,7 @@ module deck_checks
   use four_bar_limits, only: crank_reach, reach_t
   use kinds, only: wp
   use linkage_checks, only: check_linkage
-  use linkage_parts, only: assemble_linkage, assembly_t
+  use linkage_builder, only: assemble_linkage, assembly_t
   use loop_poses, only: has_loop
   use mechanisms, only: mechanism_of, mechanism_t
   use models, only: is_four_bar, model_t, needs_frequencies, needs_response, pivots, &

@@ -9,8 +9,8 @@ module linkage_checks
   use division_checks, only: check_coupled_drives, check_shared_forces
   use errors, only: error_of_reach, error_t
   use kinds, only: wp
-  use linkage_parts, only: assembly_t
-  use linkages, only: demands_angle, demands_length, equation_t, groups_dyad, is_dyad_linkage, &
+  use linkage_builder, only: assembly_t
+  use linkages, only: demand_angle, demand_length, equation_t, group_dyad, is_dyad_linkage, &
     linkage_t, reference_point
   use mechanisms, only: mechanism_t, pins_of_body
   use misfit_words, only: amount_text, misfit_text, name_redundancy
@@ -18,7 +18,7 @@ module linkage_checks
     solver_band, solver_dense
   use plan_words, only: group_names
   use pose_types, only: pose_t
-  use poses, only: place_parts
+  use poses, only: place_pins
   use reach_checks, only: check_reach
   use ram_checks, only: check_rams
   use redundancies, only: is_fit, largest_misfit
@@ -136,7 +136,7 @@ contains
     if (mechanism%accuracy > 0.0_wp .or. is_dyad_linkage(mechanism%linkage)) return
     reason = " is for links that are placed two by two"
     do i = 1, size(mechanism%linkage%groups)
-      if (mechanism%linkage%groups(i)%kind == groups_dyad) cycle
+      if (mechanism%linkage%groups(i)%kind == group_dyad) cycle
       reason = reason//", not "//group_names(mechanism, mechanism%linkage%groups(i))
       exit
     end do
@@ -197,7 +197,7 @@ contains
     integer :: i, number
 
     do i = 1, size(cranks), 1 + size(cranks)/most_samples
-      call place_parts(linkage, cranks(i), pose, error)
+      call place_pins(linkage, cranks(i), pose, error)
       if (allocated(error)) cycle
       found%span = max(found%span, maxval(abs(pose%pin)), maxval(linkage%bodies%length))
       call largest_misfit(linkage, pose, reference_point(linkage), cranks(i), misfit, number)
@@ -237,7 +237,7 @@ contains
     integer :: b, i
 
     words = "with "//subject//" the links"
-    if (all(equation%kind /= [demands_length, demands_angle])) return
+    if (all(equation%kind /= [demand_length, demand_angle])) return
     words = "links "
     pins = pins_of_body(mechanism%linkage%bodies(equation%body))
     do b = 1, size(mechanism%names)

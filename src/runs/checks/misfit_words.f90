@@ -4,7 +4,7 @@ module misfit_words
   use deck_lengths, only: length_text, missing_text
   use joint_cards, only: weld_t
   use kinds, only: wp
-  use linkages, only: demands_angle, demands_length, demands_line, equation_t
+  use linkages, only: demand_angle, demand_length, demand_line, equation_t
   use mechanisms, only: mechanism_t
   use models, only: model_t
   use text, only: same_word, to_string
@@ -25,10 +25,10 @@ contains
     character(len=:), allocatable, intent(out) :: words
 
     select case (equation%kind)
-    case (demands_length, demands_angle)
+    case (demand_length, demand_angle)
       place = model%links(mechanism%links(equation%body))%name
       words = "'"//place%text//"'"
-    case (demands_line)
+    case (demand_line)
       place = model%sliders(equation%number)%pin
       words = slider_words(model, equation%number)
     case default
@@ -91,11 +91,11 @@ contains
 
     words = amount_text(model, mechanism, equation, misfit)
     select case (equation%kind)
-    case (demands_length)
+    case (demand_length)
       words = missing_text(model, misfit)
-    case (demands_angle)
+    case (demand_angle)
       words = words//" aside of pin '"//mechanism%pin_names(equation%pin)%text//"'"
-    case (demands_line)
+    case (demand_line)
       words = words//" off its line"
     case default
       associate (turn => mechanism%linkage%turns(equation%number))
@@ -117,7 +117,7 @@ contains
     real(wp), intent(in) :: misfit             !! of `largest_misfit` [m]
     character(len=:), allocatable :: words
 
-    if (any(equation%kind == [demands_length, demands_angle, demands_line])) then
+    if (any(equation%kind == [demand_length, demand_angle, demand_line])) then
       words = length_text(model, abs(misfit), 6)
     else
       words = to_string(abs(misfit)/mechanism%linkage%bodies(mechanism%linkage%turns( &

@@ -4,7 +4,7 @@ module plan_faults
   use diagnostics, only: add_error, diagnostics_t
   use drive_cards, only: branch_backward, branch_forward
   use kinds, only: wp
-  use linkage_parts, only: assembly_t
+  use linkage_builder, only: assembly_t
   use models, only: model_t
   use plan_problems, only: problem_braced, problem_coupler_driven, problem_drive_idle, &
     problem_no_side, problem_not_drawn, problem_other_bases, problem_side_idle, &

@@ -5,7 +5,7 @@
 module ram_checks
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
-  use linkages, only: drives_length
+  use linkages, only: drive_of_length
   use mechanisms, only: mechanism_t
   use models, only: model_t
   implicit none (type, external)
@@ -24,7 +24,7 @@ contains
     integer :: i
 
     do i = 1, size(mechanism%linkage%drives)
-      if (mechanism%linkage%drives(i)%kind /= drives_length) cycle
+      if (mechanism%linkage%drives(i)%kind /= drive_of_length) cycle
       call check_ram(model, mechanism, mechanism%linkage%drives(i)%body, diagnostics)
     end do
   end subroutine check_rams

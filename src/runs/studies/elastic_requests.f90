@@ -3,7 +3,7 @@ module elastic_requests
   use elastic_equations, only: elastic_terms_t
   use kinds, only: wp
   use models, only: model_t
-  use response_parts, only: body_damping_t, damping_by_ratio, damping_by_time, dampings_of
+  use response_builder, only: body_damping_t, damping_by_ratio, damping_by_time, dampings_of
   use response_types, only: damping_ratio, damping_time, link_damping_t, no_damping
   implicit none (type, external)
   private

@@ -6,7 +6,7 @@ module study_of_response
   use models, only: accuracy_of_study, model_t, needs_response, report_number, report_with, &
     speed_in_words
   use named_parts, only: name_outcomes
-  use response_parts, only: body_damping_t, damping_none, dampings_of
+  use response_builder, only: body_damping_t, damping_none, dampings_of
   use response_study, only: find_response, largest_deflection
   use response_types, only: drive_values, gauge_t, response_point_t, response_request_t, &
     response_t, strain_values

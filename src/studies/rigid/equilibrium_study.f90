@@ -8,7 +8,7 @@ module equilibrium_study
   use lagrange, only: find_lagrange, lagrange_t
   use limits_study, only: everywhere
   use linkage_paths, only: period_of
-  use linkages, only: drives_angle, linkage_t
+  use linkages, only: drive_of_angle, linkage_t
   use load_tables, only: load_period
   use positions, only: find_state, state_t
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t
@@ -125,7 +125,7 @@ contains
     integer :: i, n, before
 
     n = fewest
-    if (linkage%drives(1)%kind == drives_angle) n = max(n, ceiling((ends(2) - &
+    if (linkage%drives(1)%kind == drive_of_angle) n = max(n, ceiling((ends(2) - &
       ends(1))/360.0_wp)*each_turn)
     before = size(curve)
     allocate (longer(before + n + 1))
@@ -200,7 +200,7 @@ contains
     real(wp), parameter :: off = 0.236_wp
 
     n = samples_per_range
-    if (linkage%drives(1)%kind == drives_angle) n = max(n, ceiling((ends(2) - &
+    if (linkage%drives(1)%kind == drive_of_angle) n = max(n, ceiling((ends(2) - &
       ends(1))/360.0_wp)*samples_per_range)
     repeats = turns
     if (turns) repeats = load_period(linkage, period_of(linkage)) > 0.0_wp
@@ -299,7 +299,7 @@ contains
       rest%crank = crank
       rest%kind = kind
       step = 0.4_wp
-      if (linkage%drives(1)%kind /= drives_angle) step = 1.0e-3_wp*(ends(2) - ends(1))
+      if (linkage%drives(1)%kind /= drive_of_angle) step = 1.0e-3_wp*(ends(2) - ends(1))
       if (.not. turns) step = min(step, 0.25_wp*max(min(crank - ends(1), ends(2) - crank), 0.0_wp))
       call describe(linkage, rigid, step, rest)
       if (repeats .and. kind /= is_indifferent) rest%crank = ends(1) + modulo(rest%crank - &
@@ -358,7 +358,7 @@ contains
       rest%potential = terms%potential
       rest%inertia = terms%inertia
     end if
-    per_unit = merge(degree, 1.0_wp, linkage%drives(1)%kind == drives_angle)
+    per_unit = merge(degree, 1.0_wp, linkage%drives(1)%kind == drive_of_angle)
     if (.not. step > 0.0_wp) return
     do i = 1, 3
       h = step/2.0_wp**(i - 1)
@@ -371,7 +371,7 @@ contains
     rest%stiffness = (16.0_wp*better(2) - better(1))/15.0_wp
     ! Places are rounded as well as forces.
     whole = 360.0_wp
-    if (linkage%drives(1)%kind /= drives_angle) whole = abs(rest%crank) + &
+    if (linkage%drives(1)%kind /= drive_of_angle) whole = abs(rest%crank) + &
       maxval(linkage%bodies%length)
     error = abs(rest%stiffness - better(2)) + epsilon(1.0_wp)*(4.0_wp*max(before%scale, &
       after%scale)/per_unit + 2.0_wp*abs(rest%stiffness)*whole)/h

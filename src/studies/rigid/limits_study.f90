@@ -8,8 +8,8 @@ module limits_study
   use group_equations, only: drive_value, line_offset
   use kinds, only: wp
   use linkage_paths, only: has_iterations, leave_path
-  use linkages, only: drives_angle, groups_by_newton, groups_cross_slide, groups_driven_dyad, &
-    groups_dyad, groups_on_line, groups_through_pin, groups_two_lines, linkage_t
+  use linkages, only: drive_of_angle, group_by_newton, group_cross_slide, group_driven_dyad, &
+    group_dyad, group_on_line, group_through_pin, group_two_lines, linkage_t
   implicit none (type, external)
   private
 
@@ -61,7 +61,7 @@ contains
     allocate (found%extremes(size(found%quantities), size(found%ranges)), &
       found%low(size(found%ranges)))
     do r = 1, size(found%ranges)
-      call find_low_points(linkage, found%ranges(r), linkage%groups%kind == groups_by_newton, &
+      call find_low_points(linkage, found%ranges(r), linkage%groups%kind == group_by_newton, &
         found%low(r)%at)
       call find_extremes(linkage, found%ranges(r), found%quantities, found%extremes(:, r))
     end do
@@ -78,7 +78,7 @@ contains
     integer :: i
 
     positions = [0.0_wp]
-    if (linkage%drives(1)%kind == drives_angle) return
+    if (linkage%drives(1)%kind == drive_of_angle) return
     span = 2.0_wp*sum(linkage%bodies%length) + maxval(norm2(linkage%ground_position, dim=1))
     positions = [(span*i/steps, i=-steps, steps)]
   end function everywhere
@@ -146,7 +146,7 @@ contains
     call find_ranges(alone, [value], ranges, number)
     do r = 1, size(ranges)
       ahead = value - ranges(r)%from
-      if (linkage%drives(number)%kind == drives_angle) ahead = modulo(ahead, 360.0_wp)
+      if (linkage%drives(number)%kind == drive_of_angle) ahead = modulo(ahead, 360.0_wp)
       if (ranges(r)%turns .or. ahead > ranges(r)%to - ranges(r)%from) cycle
       found%drive = number
       found%range = ranges(r)
@@ -178,16 +178,16 @@ contains
     do i = 1, size(linkage%groups)
       associate (group => linkage%groups(i))
         select case (group%kind)
-        case (groups_dyad, groups_driven_dyad)
+        case (group_dyad, group_driven_dyad)
           filled = filled + 1
           room(filled) = quantity_t(transmission_of_dyad, i)
-        case (groups_on_line)
+        case (group_on_line)
           filled = filled + 1
           room(filled) = quantity_t(pressure_of_slider, i)
-        case (groups_two_lines, groups_cross_slide)
+        case (group_two_lines, group_cross_slide)
           filled = filled + 1
           room(filled) = quantity_t(transmission_of_lines, i)
-        case (groups_through_pin)
+        case (group_through_pin)
           ! A line through its pivot leaves no angle.
           if (abs(line_offset(linkage, group%slider(1))) <= 1.0e-12_wp*linkage%bodies( &
             group%body(1))%length) cycle

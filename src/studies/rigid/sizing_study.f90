@@ -1,5 +1,4 @@
-!> What is bought for a linkage: torque, speed and power of its drives, forces of its bearings, and
-!! the flywheel, each over the whole cycle.
+!> Ratings of motors, bearings and the flywheel of a linkage over its whole cycle.
 module sizing_study
   use constants, only: degree
   use elastic_reactions, only: elastic_division_t

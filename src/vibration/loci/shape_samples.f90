@@ -5,7 +5,7 @@ module shape_samples
   use deformation_model, only: deformation_model_t
   use elastic_linkages, only: elastic_linkage_t
   use kinds, only: wp
-  use linkages, only: cross, drives_angle, drives_slider, linkage_t
+  use linkages, only: cross, drive_of_angle, drive_of_slider, linkage_t
   use pin_displacements, only: chords_t
   use pose_types, only: pins_of_body
   use poses, only: pose_t
@@ -215,8 +215,8 @@ contains
     place%pin = max(1, findloc(linkage%is_ground, .true., dim=1))
     if (size(linkage%drives) == 0) return
     associate (drive => linkage%drives(1))
-      if (drive%kind == drives_slider) place%pin = linkage%sliders(drive%slider)%pin
-      if (drive%kind /= drives_angle) return
+      if (drive%kind == drive_of_slider) place%pin = linkage%sliders(drive%slider)%pin
+      if (drive%kind /= drive_of_angle) return
       place%turns = elastic%body == drive%body
       allocate (others(0))
       do k = 1, size(elastic%body)

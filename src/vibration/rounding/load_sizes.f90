@@ -1,4 +1,4 @@
-!> Magnitudes of the loads of a position, whatever they cancel: their rounding is that of these.
+!> Sums of the magnitudes of the loads of a position: their rounding is a share of these.
 module load_sizes
   use bordered_eigensolver, only: bordered_modes_t
   use elastic_linkages, only: elastic_linkage_t, spring_t

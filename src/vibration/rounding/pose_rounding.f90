@@ -14,7 +14,7 @@ module pose_rounding
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use ledger, only: ledger_t
-  use linkages, only: groups_by_newton, groups_dyad, linkage_t, path_t
+  use linkages, only: group_by_newton, group_dyad, linkage_t, path_t
   use load_cases, only: case_count
   use poses, only: pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
@@ -91,7 +91,7 @@ contains
     ! counts many times. So it does in the accelerations of groups that iterations place.
     if (any(abs(factor) > 0.0_wp) .and. allocated(structure%elastic)) then
       if (size(structure%linkage%redundancies) > 0 .or. any(structure%linkage%groups%kind == &
-        groups_by_newton)) least_sine = huge(least_sine)
+        group_by_newton)) least_sine = huge(least_sine)
     end if
     do i = 1, modes
       energy = elastic_square(model%layout, found%vector(:, i)) + load_work(i)
@@ -227,7 +227,7 @@ contains
     shortest = huge(shortest)
     do i = 1, size(linkage%groups)
       associate (group => linkage%groups(i))
-        if (group%kind == groups_dyad) then
+        if (group%kind == group_dyad) then
           largest = max(largest, norm2(pose%pin(:, group%base(2)) - pose%pin(:, group%base(1))))
           shortest = min(shortest, minval(linkage%bodies(group%body)%length))
         else if (allocated(group%bodies)) then

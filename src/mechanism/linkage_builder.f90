@@ -1,5 +1,5 @@
 !> Model → linkage: pins, bodies, sliders, welds and drives by number, and the plan of its groups.
-module linkage_parts
+module linkage_builder
   use assembly_plan, only: plan_linkage
   use chosen_assemblies, only: choose_assembly
   use constants, only: degree
@@ -14,7 +14,7 @@ module linkage_parts
   use link_cards, only: has_own_mass, segment_count
   use link_shapes, only: find_drawn_link, find_drawn_pin, find_link_shape
   use linkage_paths, only: follow_path
-  use linkages, only: body_t, drives_angle, drives_length, drives_nothing, drives_slider, &
+  use linkages, only: body_t, drive_of_angle, drive_of_length, drive_of_nothing, drive_of_slider, &
     linkage_t
   use models, only: is_four_bar, is_pin, model_t, rule_at_change_points
   use name_index, only: find_name, name_index_t, new_name_index
@@ -440,20 +440,20 @@ contains
 
     if (model%is_structure) then
       allocate (linkage%drives(1))
-      linkage%drives(1)%kind = drives_nothing
+      linkage%drives(1)%kind = drive_of_nothing
       return
     end if
     allocate (linkage%drives(size(model%drives)))
     do i = 1, size(model%drives)
       associate (card => model%drives(i), drive => linkage%drives(i))
-        drive%kind = drives_angle
+        drive%kind = drive_of_angle
         drive%is_free = card%is_free
-        if (card%kind == drive_slider) drive%kind = drives_slider
-        if (card%kind == drive_ram) drive%kind = drives_length
+        if (card%kind == drive_slider) drive%kind = drive_of_slider
+        if (card%kind == drive_ram) drive%kind = drive_of_length
         if (card%link > 0) drive%body = findloc(link, card%link, dim=1)
-        if (card%against_link > 0 .and. drive%kind == drives_angle) drive%against = findloc(link, &
-          card%against_link, dim=1)
-        if (drive%kind == drives_slider) drive%slider = card%slider
+        if (card%against_link > 0 .and. drive%kind == drive_of_angle) &
+          drive%against = findloc(link, card%against_link, dim=1)
+        if (drive%kind == drive_of_slider) drive%slider = card%slider
         if (i == 1) cycle
         unit = 1.0_wp
         if (.not. moves_along(card%kind)) unit = 1.0_wp/degree
@@ -489,4 +489,4 @@ contains
     end do
   end subroutine take_sides
 
-end module linkage_parts
+end module linkage_builder

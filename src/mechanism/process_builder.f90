@@ -1,5 +1,5 @@
 !> Model → loads of processes on the linkage.
-module process_parts
+module process_builder
   use applied_load_types, only: acts_against_motion, acts_always, acts_with_motion, &
     applied_load_t, applies_couple, applies_force, load_over_angle => over_angle, &
     load_over_drive => over_drive, load_over_slider => over_slider, load_over_travel => over_travel
@@ -82,4 +82,4 @@ contains
     end select
   end subroutine set_table
 
-end module process_parts
+end module process_builder

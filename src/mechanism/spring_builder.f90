@@ -1,5 +1,5 @@
 !> Model → springs and dampers of the linkage.
-module spring_parts
+module spring_builder
   use applied_load_types, only: applied_load_t, applies_along, applies_between, load_place_t
   use constants, only: degree
   use kinds, only: wp
@@ -8,7 +8,7 @@ module spring_parts
   use load_coordinates, only: counts_turns
   use models, only: model_t, report_number
   use name_index, only: find_name, name_index_t
-  use spring_cards, only: spring_t
+  use spring_cards, only: spring_card_t
   use text, only: same_word
   implicit none (type, external)
   private
@@ -62,7 +62,7 @@ contains
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: pins
     type(linkage_t), intent(in) :: linkage
-    type(spring_t), intent(in) :: spring
+    type(spring_card_t), intent(in) :: spring
     type(applied_load_t), intent(inout) :: load !! with its ends
 
     real(wp) :: place(2, 2)
@@ -158,4 +158,4 @@ contains
     angle = atan2(way(2) + 0.0_wp, way(1) + 0.0_wp)
   end function drawn_angle
 
-end module spring_parts
+end module spring_builder

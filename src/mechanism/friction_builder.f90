@@ -1,5 +1,5 @@
 !> Model → friction in the joints of the linkage.
-module friction_parts
+module friction_builder
   use friction_cards, only: friction_card_t
   use joint_friction_types, only: joint_friction_t
   use kinds, only: wp
@@ -72,4 +72,4 @@ contains
     if (card%length > 0.0_wp .and. any(linkage%turns%slider == card%slider)) number = 2
   end function number_of
 
-end module friction_parts
+end module friction_builder

@@ -1,5 +1,5 @@
 !> Model → damping, gauges and points on the bodies of the linkage, for the elastic response.
-module response_parts
+module response_builder
   use attached_parts, only: body_point_t, place_on_body, points_of, runs_against
   use kinds, only: wp
   use linkages, only: linkage_t
@@ -150,4 +150,4 @@ contains
     end do
   end function response_points_of
 
-end module response_parts
+end module response_builder
