@@ -185,8 +185,9 @@ contains
         if (len_trim(report%kind%name) == 0) cycle
         four_bar = as_four_bar(model)
         if (report%format /= any_linkage) four_bar = report%format == four_bars
-        ! An older name means what it has meant.
-        if (report%kind%name == "drive") four_bar = is_four_bar(model)
+        ! An older name means what it has meant, and a mesh is one of links with two pins.
+        if (any(report%kind%name == [character(len=5) :: "drive", "mesh"])) four_bar = &
+          is_four_bar(model)
         number = kind_of_linkage(reports, trim(report%kind%name), four_bar)
         if (number == 0) number = kind_of_linkage(reports, trim(report%kind%name), &
           is_four_bar(model))

@@ -129,6 +129,10 @@ refused() {
   run 2 --out "$scratch/nothing" "$scratch/wrong.deck" && says "wrong.deck:1:25: error: unknown word 'fourbar' (did you mean 'four_bar'?); expected one of: four_bar, linkage" || return 1
   four_bar format=four_bar "PINMASS P 1e-4" "REPORT balance" >"$scratch/heavy.deck"
   run 2 --out "$scratch/nothing" "$scratch/heavy.deck" && says "REPORT balance as of a four-bar knows three links without masses at further pins; expected REPORT balance format=linkage" || return 1
+  # A mesh is one of links with two pins, whatever the format.
+  four_bar format=four_bar "MATERIAL steel E=200000 density=7.8e-9" "SECTION strip rectangle thickness=1.6 width=25.4" "FORCE P 1 1" "REPORT mesh" |
+    sed 's/^\(LINK [a-z]* [A-Z0-9]* [A-Z0-9]* length=[0-9.]*\).*/\1 material=steel section=strip/' >"$scratch/mesh.deck"
+  run 2 --out "$scratch/nothing" "$scratch/mesh.deck" && says "error: REPORT mesh is made for four-bars only, so far" || return 1
   four_bar "" "REPORT drives format=linkage" >"$scratch/key.deck"
   run 2 --out "$scratch/nothing" "$scratch/key.deck" && says "unknown key 'format'" && absent "$scratch/nothing"
 }
