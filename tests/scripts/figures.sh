@@ -80,8 +80,8 @@ response_figures() {
   sed '/^END/d; s/^SPEED.*/SPEED 10 20 rad\/s/; s/^CRANK.*/CRANK 0 to 360 step 15/' inputs/response.deck >"$scratch/several.deck"
   printf '%s\n' 'MODES 2' 'INERTIA distributed' 'REPORT frequencies' END >>"$scratch/several.deck"
   run 0 --quiet --out "$scratch/out" inputs/response.deck "$scratch/several.deck" || return 1
-  drawn response figures deformed_linkage deviation displacements drive pin_displacements strains || return 1
-  speeds=$(for name in deformed_linkage deviation displacements drive frequencies pin_displacements strains; do
+  drawn response figures deformed_linkage deviation displacements pin_displacements strains torque || return 1
+  speeds=$(for name in deformed_linkage deviation displacements frequencies pin_displacements strains torque; do
     echo ${name}_speed_10 ${name}_speed_20
   done)
   drawn several figures $speeds frequency_1_by_speed frequency_2_by_speed largest_strain validity strains_mid_coupler_by_speed \
