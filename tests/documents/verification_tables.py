@@ -309,7 +309,7 @@ class Tables:
         """Largest error and estimate of each table: of every quantity by its largest value over the turn."""
         tables = {"strains": ("gauge", [("axial_strain",), ("bending_strain",), ("shear_force",)]),
                   "response": ("point", [("ux", "uy"), ("rotation",)]),
-                  "drive": ("speed", [("rigid",), ("linear",), ("quadratic",), ("total",)])}
+                  "torque": ("speed", [("rigid",), ("linear",), ("quadratic",), ("total",)])}
 
         def error_of(rows, references, columns):
             def length(values):
@@ -325,13 +325,13 @@ class Tables:
                 errors = [error_of(*([row for row in some if row[key] == one] for some in (rows, references)), columns)
                           for one in {row[key] for row in rows} for columns in quantities]
                 cells += [error(max(errors)), estimate(largest(rows, "error"))]
-            order, samples = re.search(r"polynomials of order (\d+).*?(\d+) crank angles", run.files["drive.dat"]).groups()
+            order, samples = re.search(r"polynomials of order (\d+).*?(\d+) crank angles", run.files["torque.dat"]).groups()
             yield [Word(accuracy), Word(order), Word(samples)] + cells
 
     def torque_balance(self):
         run = self._response("1e-10", (r"^UNITS.*", "UNITS mm tonne s torque=N*m"), (r"^CRANK.*", "CRANK 0 to 359 step 1"),
                              (r"^SPEED.*", "SPEED 10 20 30 40 rad/s"))
-        drive, peaks = run.rows("drive"), run.rows("peaks")
+        drive, peaks = run.rows("torque"), run.rows("peaks")
         for speed in (10, 20, 30, 40):
             rows = [row for row in drive if row["speed"] == speed]
             linear, quadratic = (sum(row[part] for row in rows)/len(rows) for part in ("linear", "quadratic"))
