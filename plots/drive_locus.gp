@@ -10,7 +10,7 @@ unit_in(k, quantity) = system(rows_told(sprintf("!/^#/ && $2 == \"%s\" && $3 == 
     word(drive_names, k), quantity), table))
 sized(k) = is_force(k) ? "force" : "torque"
 headline = "Torque against speed of the drives over the cycle"
-note = "curve: at the positions of drive.dat; bars: peak, rms (with both signs) and mean over the whole cycle"
+note = "curve: at the positions of drives.dat; bars: peak, rms (with both signs) and mean over the whole cycle"
 
 # Rate and torque of a drive at all positions, an empty line between speeds; then a value of every speed as a bar across, with both
 # signs as two.
