@@ -4,6 +4,7 @@
 module four_bar_loops
   use kinds, only: wp
   use linkages, only: drive_of_angle, group_carried, group_dyad, group_turned, linkage_t
+  use pose_types, only: pins_of_body, place_of_pin
   implicit none (type, external)
   private
 
@@ -46,8 +47,13 @@ contains
     end associate
     if (.not. linkage%is_ground(found%pin(4)) .or. found%pin(4) == found%pin(1)) return
     found%ground = linkage%ground_position(:, found%pin([1, 4]))
+    ! What carries the dyad may be welded to the crank.
+    if (.not. any(pins_of_body(linkage%bodies(1)) == found%pin(2))) return
     do i = 1, 3
-      found%length(i) = distance_between(linkage, found%body(i), found%pin(i), found%pin(i + 1))
+      associate (body => linkage%bodies(found%body(i)))
+        found%length(i) = norm2(place_of_pin(body, found%pin(i + 1)) - place_of_pin(body, &
+          found%pin(i)))
+      end associate
       if (.not. found%length(i) > 0.0_wp) return
     end do
     four_bar = found
@@ -71,50 +77,5 @@ contains
       is = is .and. (any(four_bar%pin == i) .or. .not. linkage%pin_mass(i) > 0.0_wp)
     end do
   end function is_plain
-
-  !> Distance of two pins of a body; 0 if it does not have both [m].
-  pure function distance_between(linkage, body, first, second) result(distance)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: body, first, second
-    real(wp) :: distance
-
-    real(wp) :: place(2, 2)
-    logical :: has(2)
-
-    distance = 0.0_wp
-    associate (this => linkage%bodies(body))
-      if (all([first, second] == [this%first_pin, this%last_pin]) .or. &
-        all([second, first] == [this%first_pin, this%last_pin])) then
-        distance = this%length
-        return
-      end if
-    end associate
-    call find_place(first, place(:, 1), has(1))
-    call find_place(second, place(:, 2), has(2))
-    if (all(has)) distance = norm2(place(:, 2) - place(:, 1))
-
-  contains
-
-    !> Where a pin is in the axes of the body.
-    pure subroutine find_place(pin, place, has)
-      integer, intent(in) :: pin
-      real(wp), intent(out) :: place(2)
-      logical, intent(out) :: has
-
-      integer :: i
-
-      place = 0.0_wp
-      associate (this => linkage%bodies(body))
-        has = any(pin == [this%first_pin, this%last_pin])
-        if (pin == this%last_pin) place(1) = this%length
-        do i = 1, size(this%further)
-          if (this%further(i)%pin /= pin) cycle
-          has = .true.
-          place = this%further(i)%place
-        end do
-      end associate
-    end subroutine find_place
-
-  end function distance_between
 
 end module four_bar_loops

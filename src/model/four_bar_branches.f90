@@ -87,65 +87,68 @@ contains
     type(token_t), intent(out) :: pins(4)    !! of the last: O2, A, B, O4
 
     type(name_index_t) :: grounds
-    integer :: driven, o2, a, coupler, b, follower, o4
+    type(token_t) :: way(4)
+    integer :: links(3), driven, k
 
-    grounds = new_name_index(token_texts(model%grounds%pin))
     loops = 0
     pins = token_t("", 0, 0)
     if (size(model%drives) == 0) return
     driven = find_name(new_name_index(token_texts(model%links%name)), model%drives(1)%subject%text)
     if (driven == 0 .or. size(model%links) > 3 + count_welded(model) .or. size(model%sliders) > 0) &
       return
-    associate (links => model%links, crank => model%links(driven))
-      do a = 1, size(crank%pins)
-        if (is_ground(crank%pins(a))) cycle
-        do coupler = 1, size(links)
-          if (coupler == driven .or. .not. has(links(coupler), crank%pins(a))) cycle
-          do b = 1, size(links(coupler)%pins)
-            if (same_word(links(coupler)%pins(b)%text, crank%pins(a)%text) .or. &
-              is_ground(links(coupler)%pins(b))) cycle
-            do follower = 1, size(links)
-              if (any(follower == [driven, coupler]) .or. .not. has(links(follower), &
-                links(coupler)%pins(b))) cycle
-              do o4 = 1, size(links(follower)%pins)
-                if (.not. is_ground(links(follower)%pins(o4))) cycle
-                do o2 = 1, size(crank%pins)
-                  if (.not. is_ground(crank%pins(o2)) .or. same_word(crank%pins(o2)%text, &
-                    links(follower)%pins(o4)%text)) cycle
-                  loops = loops + 1
-                  pins = [crank%pins(o2), crank%pins(a), links(coupler)%pins(b), &
-                    links(follower)%pins(o4)]
-                end do
-              end do
-            end do
-          end do
+    grounds = new_name_index(token_texts(model%grounds%pin))
+    links(1) = driven
+    do k = 1, size(model%links(driven)%pins)
+      way(1) = model%links(driven)%pins(k)
+      if (find_name(grounds, way(1)%text) > 0) call follow_links(model, grounds, 1, links, way, &
+        loops, pins)
+    end do
+  end subroutine find_loop
+
+  !> Goes on from the last of some links, over pins that move, until a third link ends at another
+  !! ground pivot.
+  pure recursive subroutine follow_links(model, grounds, count, links, way, loops, pins)
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: grounds
+    integer, intent(in) :: count           !! of links so far
+    integer, intent(inout) :: links(3)     !! their numbers, from the driven one
+    type(token_t), intent(inout) :: way(4) !! a pin before each of them
+    integer, intent(inout) :: loops        !! as of `find_loop`
+    type(token_t), intent(inout) :: pins(4)
+
+    integer :: k, next
+
+    associate (here => model%links(links(count))%pins)
+      do k = 1, size(here)
+        if (is_among(here(k), way(:count))) cycle
+        if ((find_name(grounds, here(k)%text) > 0) .neqv. count == 3) cycle
+        way(count + 1) = here(k)
+        if (count == 3) then
+          loops = loops + 1
+          pins = way
+          cycle
+        end if
+        do next = 1, size(model%links)
+          if (any(links(:count) == next) .or. .not. is_among(here(k), model%links(next)%pins)) cycle
+          links(count + 1) = next
+          call follow_links(model, grounds, count + 1, links, way, loops, pins)
         end do
       end do
     end associate
+  end subroutine follow_links
 
-  contains
+  !> Whether a pin is one of several.
+  pure function is_among(pin, pins) result(is)
+    type(token_t), intent(in) :: pin, pins(:)
+    logical :: is
 
-    pure function is_ground(pin) result(is)
-      type(token_t), intent(in) :: pin
-      logical :: is
+    integer :: k
 
-      is = find_name(grounds, pin%text) > 0
-    end function is_ground
-
-    pure function has(link, pin)
-      type(link_t), intent(in) :: link
-      type(token_t), intent(in) :: pin
-      logical :: has
-
-      integer :: k
-
-      has = .false.
-      do k = 1, size(link%pins)
-        has = has .or. same_word(link%pins(k)%text, pin%text)
-      end do
-    end function has
-
-  end subroutine find_loop
+    is = .false.
+    do k = 1, size(pins)
+      is = is .or. same_word(pins(k)%text, pin%text)
+    end do
+  end function is_among
 
   !> Open or crossed, without a card that says so: by a BRANCH card about the pin of coupler and
   !! follower, or else by the drawing. Errors: a card about another pin, or the side of another way
