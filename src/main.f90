@@ -77,7 +77,7 @@ program main
   refused = .false.
   do i = 1, size(decks)
     call read_deck(command%decks(i)%text, command%threads, decks(i), command%settings, &
-      processes, command%part, .not. command%join)
+      processes, command%join, command%check_only, command%part)
     if (was_interrupted()) then
       call complain(outcomes(i), "interrupted")
       call say(command%decks(i)%text//": interrupted"//achar(10))
@@ -108,8 +108,8 @@ program main
     call finish(0, "")
   end if
 
-  ! Decks are checked as a whole, however long it takes: a loop of runs with --resume would get
-  ! nowhere if that is all there is time for.
+  ! Decks are read however long it takes: a loop of runs with --resume would get nowhere if that is
+  ! all there is time for.
   call lap(watch, so_far)
   if (so_far >= command%most_time) then
     call say("flexmech: stopped at its time limit of "//command%limit//": reading and checking "// &
@@ -121,6 +121,12 @@ program main
   call limit_time(command%most_time - so_far)
   do i = 1, size(decks)
     call run_deck(decks(i), options, outcomes(i)%result, error)
+    if (.not. command%quiet) call say(outcomes(i)%result%warnings)
+    if (len(decks(i)%errors) > 0) then
+      call say(decks(i)%errors)
+      outcomes(i)%exit_status = 2
+      call finish(2, "")
+    end if
     if (allocated(error)) then
       call say(rendered(error)//achar(10))
       call complain(outcomes(i), rendered(error))

@@ -8,10 +8,11 @@ module deck_runs
     publish_outputs, write_found_rows, write_texts, write_variant
   use deck_readings, only: deck_t
   use deck_summary, only: summary_text
-  use diagnostics, only: diagnostics_t, warnings_of, diagnostic_t
+  use diagnostics, only: diagnostic_t, diagnostics_t, has_errors, render_errors, render_warnings, &
+    warnings_of
   use echo, only: echo_text
   use errors, only: error_of_interruption, error_of_numerics, error_t, set_error
-  use evaluations, only: evaluation_limits_t, evaluation_store_t, refuse_values
+  use evaluations, only: evaluation_store_t
   use file_system, only: file_name, joined_path
   use findings_texts, only: failure_text, findings_log, findings_messages
   use interruption, only: was_interrupted, was_out_of_time
@@ -35,7 +36,8 @@ module deck_runs
   use text_buffer, only: text_buffer_t
   use variant_findings, only: find_failures, find_warnings, totals_of
   use variant_log, only: log_of_variant
-  use variant_checks, only: is_refused
+  use variant_checks, only: begin_checks, check_t, check_number, checks_t, conclude_checks, &
+    first_error, is_refused, join_check, refuses_deck
   use variant_readings, only: read_variant
   use variant_rows, only: fail_variant, variant_rows_t
   use variant_runs, only: begin_variant_run, compute_variant, help_with_variant, variant_run_t
@@ -64,6 +66,7 @@ module deck_runs
 
   !> What a run reports besides its files.
   type :: run_result_t
+    character(len=:), allocatable :: warnings   !! about variants, for standard error
     character(len=:), allocatable :: messages   !! warnings and failed rows, for standard error
     character(len=:), allocatable :: statistics !! work done and times, for `--stats`
     character(len=:), allocatable :: success    !! what has been done, for standard output
@@ -76,6 +79,7 @@ module deck_runs
     type(outputs_t) :: outputs
     type(journal_t) :: journal
     type(progress_t) :: progress
+    type(checks_t) :: checks             !! of all variants so far
     type(run_totals_t) :: totals         !! of all variants so far
     type(findings_t) :: findings         !! of all variants so far
     character(len=:), allocatable :: log !! of the first variant that was computed,
@@ -94,7 +98,7 @@ module deck_runs
 
   !> Form of the bytes in a journal: another number wherever they mean something else, since the
   !! version of the program may stay the same.
-  character(len=*), parameter :: journal_form = "journal 10"
+  character(len=*), parameter :: journal_form = "journal 11"
 
 contains
 
@@ -119,11 +123,13 @@ contains
   !! files from all parts.
   !!
   !! Errors: the run was interrupted, no variant could be computed, or files could not be written.
+  !! The deck is refused for what a variant has: then it has errors, which `read_deck` left to this.
   !! The output folder is then as it was before, except for the journal of a long run.
   subroutine run_deck(deck, options, result, error)
-    type(deck_t), intent(in) :: deck                 !! without errors
+    type(deck_t), intent(inout) :: deck              !! without errors; on return, with what is
+                                                     !! told of its variants
     type(run_options_t), intent(in) :: options       !! of the command line
-    type(run_result_t), intent(out) :: result        !! empty after an error
+    type(run_result_t), intent(out) :: result        !! empty after an error, but for `warnings`
     type(error_t), allocatable, intent(out) :: error !! why there are no results
 
     type(session_t) :: session
@@ -131,6 +137,7 @@ contains
     type(stopwatch_t) :: watch
     integer :: blocks, variants
 
+    result%warnings = ""
     variants = variant_count(deck%cards)
     call open_files(deck, options, session, blocks, error)
     if (.not. allocated(error)) then
@@ -140,18 +147,20 @@ contains
       call run_variants(deck, options, session, error)
       call lap(watch, times%variants)
       call end_progress(session%progress)
+      if (variants > 1 .and. .not. was_interrupted()) call tell_of_variants(deck, session, result)
       ! Of a part nobody knows what the others come to.
       if (variants > 1 .and. options%part%count == 0 .and. session%outputs%computed == 0 .and. &
-        .not. (allocated(error) .or. was_interrupted())) then
+        .not. (allocated(error) .or. was_interrupted() .or. len(deck%errors) > 0)) then
         call set_error(error, error_of_numerics, "none of the "//to_string(variants)// &
           " variants could be computed; "//failure_text(session%findings%failed(1)), &
           deck%source%path)
       end if
       ! It would fail again: nothing to resume from.
-      if (allocated(error)) call remove_journal(session%journal)
+      if (allocated(error) .or. len(deck%errors) > 0) call remove_journal(session%journal)
     end if
-    if (.not. allocated(error)) call publish(deck, options, session, error)
-    if (allocated(error)) then
+    if (.not. allocated(error) .and. len(deck%errors) == 0) call publish(deck, options, session, &
+      error)
+    if (allocated(error) .or. len(deck%errors) > 0) then
       call discard_outputs(session%outputs)
       return
     end if
@@ -171,6 +180,17 @@ contains
       result%success = success_of(deck, session, options%figures)
     end if
   end subroutine run_deck
+
+  !> Adds what the checks of variants have left to the messages of the deck.
+  subroutine tell_of_variants(deck, session, result)
+    type(deck_t), intent(inout) :: deck
+    type(session_t), intent(in) :: session !! with all variants computed
+    type(run_result_t), intent(inout) :: result
+
+    call conclude_checks(session%checks, deck%cards, deck%diagnostics)
+    deck%errors = render_errors(deck%diagnostics, deck%source)
+    result%warnings = render_warnings(deck%diagnostics, deck%source)
+  end subroutine tell_of_variants
 
   !> Opens the files of a run and the journal that it goes on from. Errors: they cannot be made, or
   !! parts cannot be joined.
@@ -324,7 +344,7 @@ contains
 
     type(variant_run_t) :: run
     type(model_t) :: model
-    type(diagnostics_t) :: none
+    type(check_t) :: check
     type(evaluation_store_t) :: store
     type(findings_t) :: findings
     type(run_totals_t) :: totals
@@ -333,19 +353,20 @@ contains
     real(wp) :: computing, writing
 
     call start_stopwatch(watch)
-    if (is_refused(deck%verdict, number)) then
-      call refuse_values(deck%cards, variant_values(deck%cards, number), &
-        evaluation_limits_t(deck%verdict%threads, deck%verdict%available), store, error)
-      call write_failed_variant(deck, number, session, error)
-      return
-    end if
-    if (number == deck%verdict%leading) then
+    if (variant_count(deck%cards) == 1) then
       call begin_variant_run(run, deck%model)
+      run%progress = session%progress
     else
-      call read_variant(deck%cards, number, store%cards, none, model)
+      call check_number(deck%cards, number, deck%limits, store%cards, model, check)
+      call join_check(session%checks, deck%cards, number, check)
+      if (refuses_deck(session%checks)) return
+      if (is_refused(check)) then
+        call first_error(check, error)
+        call write_failed_variant(deck, number, session, error)
+        return
+      end if
       call begin_variant_run(run, model)
     end if
-    if (variant_count(deck%cards) == 1) run%progress = session%progress
     if (rank_count() > 1) then
       call put_string(announced, blocks_announced)
       call put_deck(announced, deck)
@@ -409,9 +430,10 @@ contains
       ! Parts have variants as a whole.
       if ((variants == 1 .or. rows > many_rows) .and. options%part%count == 0 .and. &
         .not. options%join) then
+        session%checks = begin_checks(model, deck%diagnostics, variants)
         do i = 1, variants
           call run_whole_variant(deck, i, threads, session, error)
-          if (allocated(error) .or. was_interrupted()) return
+          if (allocated(error) .or. was_interrupted() .or. refuses_deck(session%checks)) return
           if (variants > 1) call show_progress(session%progress, i, variants)
         end do
         return
@@ -425,6 +447,7 @@ contains
       job%progress = session%progress
       job%part = options%part
       call run_variant_tasks(job, rows, threads/together, together, session%journal)
+      session%checks = job%checks
       session%findings = job%findings
       session%totals = job%totals
       session%progress = job%progress

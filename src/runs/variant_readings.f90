@@ -13,7 +13,13 @@ module variant_readings
   implicit none (type, external)
   private
 
-  public :: read_variant, read_values, check_variant
+  public :: run_limits_t, read_variant, read_values, check_variant
+
+  !> What the computation of a deck may use, as far as checks depend on it.
+  type :: run_limits_t
+    integer :: threads = 1             !! on which it is computed
+    type(available_memory_t) :: memory !! when the deck was read
+  end type run_limits_t
 
 contains
 
@@ -59,14 +65,14 @@ contains
   end subroutine finish_model
 
   !> Whether memory suffices for a model, and then whether it makes sense mechanically.
-  subroutine check_variant(model, threads, available, diagnostics)
+  subroutine check_variant(model, limits, diagnostics)
     type(model_t), intent(in) :: model                !! as read
-    integer, intent(in) :: threads                    !! that will compute it
-    type(available_memory_t), intent(in) :: available !! when the deck was read
+    type(run_limits_t), intent(in) :: limits
     type(diagnostics_t), intent(inout) :: diagnostics !! of the model; if it has errors, nothing
                                                       !! more is checked
 
-    if (.not. has_errors(diagnostics)) call check_memory(model, threads, available, diagnostics)
+    if (.not. has_errors(diagnostics)) call check_memory(model, limits%threads, &
+      limits%memory, diagnostics)
     if (.not. has_errors(diagnostics)) call check_mechanics(model, diagnostics)
   end subroutine check_variant
 

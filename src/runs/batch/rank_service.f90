@@ -13,7 +13,6 @@ module rank_service
   use ranks, only: abandon_ranks, end_ranks, leader, rank_count, receive_message, send_message
   use text, only: string_t
   use text_buffer, only: text_buffer_t
-  use variant_checks, only: checks_announced, help_with_checks
   use variant_tasks, only: help_with_variants, variants_announced
   implicit none (type, external)
   private
@@ -38,8 +37,6 @@ contains
       call get_integers(bytes, at, threads)
       call get_string(bytes, at, word)
       select case (word)
-      case (checks_announced)
-        call help_with_checks(bytes, at, settings)
       case (variants_announced)
         call help_with_variants(bytes, at, settings, threads(1))
       case (blocks_announced)

@@ -15,6 +15,7 @@ module variant_rows
   use tables, only: column_t
   use text, only: string_t
   use text_buffer, only: text_buffer_t
+  use variant_checks, only: check_t, get_check, put_check
   use variant_findings, only: find_failures, find_warnings, totals_of
   use variant_log, only: log_of_variant
   use variant_results, only: variant_results_t
@@ -37,6 +38,7 @@ module variant_rows
     real(wp), allocatable :: varied(:)           !! (parameters) values, in the units of their VARY
                                                  !! cards
     type(table_part_t), allocatable :: tables(:) !! in the order of the deck's tables
+    type(check_t) :: check
     type(findings_t) :: findings
     type(run_totals_t) :: totals
     logical :: has_failed = .false.              !! as a whole: there are failed rows only
@@ -129,6 +131,7 @@ contains
         call put_rows(buffer, table%rows)
       end associate
     end do
+    call put_check(buffer, rows%check)
     call put_findings(buffer, rows%findings)
     call put_totals(buffer, rows%totals)
     call put_logicals(buffer, [rows%has_failed, allocated(rows%log)])
@@ -176,6 +179,7 @@ contains
         call get_rows(bytes, at, table%rows)
       end associate
     end do
+    call get_check(bytes, at, rows%check)
     call get_findings(bytes, at, rows%findings)
     call get_totals(bytes, at, rows%totals)
     call get_logicals(bytes, at, marks)

@@ -5,11 +5,12 @@ module variant_tasks
   use deck_bytes, only: get_deck, put_deck
   use deck_outputs, only: forget_waiting, outputs_t, write_found_rows
   use deck_readings, only: deck_t
-  use errors, only: error_of_numerics, error_t, set_error
-  use evaluations, only: compute_values, evaluation_limits_t, evaluation_store_t, refuse_values
+  use errors, only: error_of_input, error_of_numerics, error_t, set_error
+  use evaluations, only: evaluation_store_t
   use interruption, only: was_interrupted
   use jobs, only: job_t
   use kinds, only: wp
+  use models, only: model_t
   use omp_lib, only: omp_get_thread_num
   use progress, only: progress_t, show_progress
   use rank_tasks, only: help_with_tasks
@@ -24,10 +25,11 @@ module variant_tasks
   use tasks, only: run_tasks
   use text, only: string_t
   use text_buffer, only: text_buffer_t
-  use variant_checks, only: is_refused
+  use variant_checks, only: begin_checks, check_t, check_number, checks_t, first_error, &
+    is_refused, join_check, refuses_deck
   use variant_rows, only: fail_variant, find_variant_rows, get_variant_rows, put_variant_rows, &
     variant_rows_t
-  use variant_runs, only: variant_run_t
+  use variant_runs, only: begin_variant_run, compute_variant, variant_run_t
   use variants, only: variant_count, variant_text, variant_values
   implicit none (type, external)
   private
@@ -41,6 +43,7 @@ module variant_tasks
     type(deck_t), pointer :: deck => null()                 !! with all variants
     type(outputs_t), pointer :: outputs => null()           !! opened
     type(part_t) :: part                                    !! of the study that is computed
+    type(checks_t) :: checks                                !! of all finished variants
     type(findings_t) :: findings                            !! of all finished variants
     type(run_totals_t) :: totals                            !! of all finished variants
     type(progress_t) :: progress                            !! by number of variants
@@ -101,6 +104,7 @@ contains
     variants = variant_count(job%deck%cards)
     first = first_variant(job%part, variants)
     last = last_variant(job%part, variants)
+    job%checks = begin_checks(job%deck%model, job%deck%diagnostics, last - first + 1)
     call run_tasks(job, first, last, at_a_time, journal, group_of_variants, room)
     if (job%headless == 0) return
     ! The variant that was to lead has failed, and the next one that has not came without what the
@@ -108,6 +112,7 @@ contains
     call compute(job, job%headless, .true., job%stores(1), job%head)
     if (was_interrupted()) return
     deallocate (job%error)
+    job%checks = begin_checks(job%deck%model, job%deck%diagnostics, last - first + 1)
     job%findings = no_findings
     job%totals = no_totals
     call forget_waiting(job%outputs)
@@ -159,7 +164,7 @@ contains
     integer, intent(in) :: number !! of the variant
 
     associate (store => self%stores(omp_get_thread_num() + 1), mine => place_of(self, number))
-      call compute(self, number, number == self%deck%verdict%leading, store, self%rows(mine))
+      call compute(self, number, number == self%deck%leading, store, self%rows(mine))
     end associate
   end subroutine run_variant
 
@@ -171,33 +176,39 @@ contains
     type(variant_rows_t), intent(inout) :: rows
 
     type(variant_run_t) :: run
-    type(evaluation_limits_t) :: limits
+    type(model_t) :: model
+    type(check_t) :: check
+    type(journal_t) :: no_journal
     type(stopwatch_t) :: watch
     type(error_t), allocatable :: error
-    real(wp), allocatable :: values(:)
     real(wp) :: computing, writing
 
     call start_stopwatch(watch)
-    values = variant_values(job%deck%cards, number)
-    limits = evaluation_limits_t(job%threads, job%deck%verdict%available)
-    if (is_refused(job%deck%verdict, number)) then
-      limits%threads = job%deck%verdict%threads
-      !$omp critical (one_at_a_time)
-      call refuse_values(job%deck%cards, values, limits, store, error)
-      !$omp end critical (one_at_a_time)
+    ! One thread at a time makes texts: gfortran 12 keeps the lengths of such results in one place
+    ! for all threads.
+    !$omp critical (one_at_a_time)
+    call check_number(job%deck%cards, number, job%deck%limits, store%cards, model, check)
+    if (is_refused(check)) then
+      call first_error(check, error)
     else
-      call compute_values(job%deck%cards, values, limits, .true., store, run, error)
+      call begin_variant_run(run, model)
     end if
+    !$omp end critical (one_at_a_time)
+    if (.not. allocated(error)) call compute_variant(run, job%threads, no_journal, -1, &
+      store%links, error)
     call lap(watch, computing)
     if (was_interrupted()) return
     if (allocated(error)) then
       !$omp critical (one_at_a_time)
-      call fail_variant(size(job%kinds), variant_text(job%deck%cards, number), values, error, rows)
+      call fail_variant(size(job%kinds), variant_text(job%deck%cards, number), &
+        variant_values(job%deck%cards, number), error, rows)
       !$omp end critical (one_at_a_time)
+      rows%check = check
       return
     end if
     call find_variant_rows(job%kinds, run%results, job%threads, leads, rows)
     call lap(watch, writing)
+    rows%check = check
     rows%totals%computing = computing
     rows%totals%writing = writing
   end subroutine compute
@@ -235,6 +246,11 @@ contains
     logical :: writes
 
     mine = place_of(self, number)
+    call join_check(self%checks, self%deck%cards, number, self%rows(mine)%check)
+    if (refuses_deck(self%checks)) then
+      call set_error(self%error, error_of_input, "the deck is refused")
+      return
+    end if
     ! A part has no tables: its rows are in the journal.
     writes = self%part%count == 0
     if (writes .and. .not. (self%outputs%have_heads .or. self%rows(mine)%has_failed .or. &
