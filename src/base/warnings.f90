@@ -1,15 +1,13 @@
 !> A warning as a value: what it says, how much it takes from the results, and in how many variants
 !! of a deck it occurs.
 module warnings
-  use byte_streams, only: get_integers, get_logicals, get_reals, get_string, put_integers, &
-    put_logicals, put_reals, put_string
+  use byte_streams, only: byte_stream_t
   use kinds, only: wp
   use text, only: to_string
-  use text_buffer, only: text_buffer_t
   implicit none (type, external)
   private
 
-  public :: warning_t, join_warning, counted_text, put_warning, get_warning
+  public :: warning_t, join_warning, counted_text, pass_warning
   public :: grade_doubt, grade_meaningless
 
   !> Grades of warnings: the results are in doubt, or may still be what was wanted; the results mean
@@ -76,43 +74,21 @@ contains
     text = "in "//to_string(warning%variants)//" of "//to_string(variants)//" variants, "//text
   end function counted_text
 
-  !> Appends a warning to a buffer as bytes.
-  pure subroutine put_warning(buffer, warning)
-    type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_warning`
-    type(warning_t), intent(in) :: warning       !! with its text and variant
+  !> Passes a warning; an error has one without a text.
+  pure subroutine pass_warning(stream, warning)
+    type(byte_stream_t), intent(inout) :: stream
+    type(warning_t), intent(inout) :: warning
 
-    call put_string(buffer, trim(warning%study))
-    call put_integers(buffer, [warning%kind, warning%grade, warning%variants])
-    call put_logicals(buffer, [warning%is_alike, warning%has_worst])
-    call put_reals(buffer, [warning%amount])
-    call put_string(buffer, warning%text)
-    call put_string(buffer, warning%variant)
-  end subroutine put_warning
-
-  !> Reads what `put_warning` wrote.
-  pure subroutine get_warning(bytes, at, warning)
-    character(len=*), intent(in) :: bytes   !! of `put_warning`, among others
-    integer, intent(inout) :: at            !! place of the first byte; on return, after the last
-    type(warning_t), intent(out) :: warning !! as it was put
-
-    real(wp) :: amount(1)
-    integer :: codes(3)
-    logical :: marks(2)
-    character(len=:), allocatable :: study
-
-    call get_string(bytes, at, study)
-    warning%study = study
-    call get_integers(bytes, at, codes)
-    call get_logicals(bytes, at, marks)
-    call get_reals(bytes, at, amount)
-    warning%kind = codes(1)
-    warning%grade = codes(2)
-    warning%variants = codes(3)
-    warning%is_alike = marks(1)
-    warning%has_worst = marks(2)
-    warning%amount = amount(1)
-    call get_string(bytes, at, warning%text)
-    call get_string(bytes, at, warning%variant)
-  end subroutine get_warning
+    call stream%pass_text(warning%text)
+    if (.not. allocated(warning%text)) return
+    call stream%pass_text(warning%variant)
+    call stream%pass_word(warning%study)
+    call stream%pass(warning%kind)
+    call stream%pass(warning%grade)
+    call stream%pass(warning%amount)
+    call stream%pass(warning%variants)
+    call stream%pass(warning%is_alike)
+    call stream%pass(warning%has_worst)
+  end subroutine pass_warning
 
 end module warnings

@@ -1,122 +1,79 @@
 !> Cards as bytes and back, with the places of their words: the form in which a deck goes to other
 !! processes.
 module card_bytes
-  use byte_streams, only: get_integers, get_logicals, get_string, put_integers, put_logicals, &
-    put_string
+  use byte_streams, only: byte_stream_t
   use cards, only: card_t
-  use text_buffer, only: text_buffer_t
   use tokens, only: token_t
   implicit none (type, external)
   private
 
-  public :: put_cards, get_cards, put_token, get_token
+  public :: pass_cards, pass_token
 
 contains
 
-  !> Appends cards to a buffer.
-  pure subroutine put_cards(buffer, cards)
-    type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_cards`
-    type(card_t), intent(in) :: cards(:)         !! of a deck
+  !> Passes the cards of a deck.
+  pure subroutine pass_cards(stream, cards)
+    type(byte_stream_t), intent(inout) :: stream
+    type(card_t), allocatable, intent(inout) :: cards(:)
 
-    integer :: i, k
+    integer :: count, i
 
-    call put_integers(buffer, [size(cards)])
-    do i = 1, size(cards)
-      call put_token(buffer, cards(i)%keyword)
-      call put_tokens(buffer, cards(i)%words)
-      call put_integers(buffer, [size(cards(i)%entries)])
-      do k = 1, size(cards(i)%entries)
-        associate (entry => cards(i)%entries(k))
-          call put_token(buffer, entry%key)
-          call put_token(buffer, entry%value)
-          call put_logicals(buffer, [allocated(entry%items)])
-          if (allocated(entry%items)) call put_tokens(buffer, entry%items)
-        end associate
-      end do
-    end do
-  end subroutine put_cards
-
-  !> Reads what `put_cards` wrote.
-  pure subroutine get_cards(bytes, at, cards)
-    character(len=*), intent(in) :: bytes              !! of `put_cards`, among others
-    integer, intent(inout) :: at                       !! place of the first byte; on return, after
-                                                       !! the last
-    type(card_t), allocatable, intent(out) :: cards(:) !! of the deck
-
-    integer :: count(1), i, k
-    logical :: has_items(1)
-
-    call get_integers(bytes, at, count)
-    allocate (cards(count(1)))
-    do i = 1, size(cards)
-      call get_token(bytes, at, cards(i)%keyword)
-      call get_tokens(bytes, at, cards(i)%words)
-      call get_integers(bytes, at, count)
-      allocate (cards(i)%entries(count(1)))
-      do k = 1, size(cards(i)%entries)
-        associate (entry => cards(i)%entries(k))
-          call get_token(bytes, at, entry%key)
-          call get_token(bytes, at, entry%value)
-          call get_logicals(bytes, at, has_items)
-          if (has_items(1)) call get_tokens(bytes, at, entry%items)
-        end associate
-      end do
-    end do
-  end subroutine get_cards
-
-  !> Appends a word with its places to a buffer.
-  pure subroutine put_token(buffer, token)
-    type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_token`
-    type(token_t), intent(in) :: token           !! without a text: as an empty one
-
-    call put_integers(buffer, [token%line, token%column, token%set_line, token%set_column])
-    if (allocated(token%text)) then
-      call put_string(buffer, token%text)
-    else
-      call put_string(buffer, "")
+    if (.not. stream%reads) count = size(cards)
+    call stream%pass(count)
+    if (stream%reads) then
+      if (allocated(cards)) deallocate (cards)
+      allocate (cards(count))
     end if
-  end subroutine put_token
-
-  !> Reads what `put_token` wrote.
-  pure subroutine get_token(bytes, at, token)
-    character(len=*), intent(in) :: bytes !! of `put_token`, among others
-    integer, intent(inout) :: at          !! place of the first byte; on return, after the last
-    type(token_t), intent(out) :: token   !! with a text
-
-    integer :: places(4)
-
-    call get_integers(bytes, at, places)
-    token%line = places(1)
-    token%column = places(2)
-    token%set_line = places(3)
-    token%set_column = places(4)
-    call get_string(bytes, at, token%text)
-  end subroutine get_token
-
-  pure subroutine put_tokens(buffer, tokens)
-    type(text_buffer_t), intent(inout) :: buffer
-    type(token_t), intent(in) :: tokens(:)
-
-    integer :: i
-
-    call put_integers(buffer, [size(tokens)])
-    do i = 1, size(tokens)
-      call put_token(buffer, tokens(i))
+    do i = 1, count
+      call pass_token(stream, cards(i)%keyword)
+      call pass_tokens(stream, cards(i)%words)
+      call pass_entries(stream, cards(i))
     end do
-  end subroutine put_tokens
+  end subroutine pass_cards
 
-  pure subroutine get_tokens(bytes, at, tokens)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at
-    type(token_t), allocatable, intent(out) :: tokens(:)
+  pure subroutine pass_entries(stream, card)
+    type(byte_stream_t), intent(inout) :: stream
+    type(card_t), intent(inout) :: card
 
-    integer :: count(1), i
+    integer :: count, k
 
-    call get_integers(bytes, at, count)
-    allocate (tokens(count(1)))
-    do i = 1, size(tokens)
-      call get_token(bytes, at, tokens(i))
+    if (.not. stream%reads) count = size(card%entries)
+    call stream%pass(count)
+    if (stream%reads) allocate (card%entries(count))
+    do k = 1, count
+      call pass_token(stream, card%entries(k)%key)
+      call pass_token(stream, card%entries(k)%value)
+      call pass_tokens(stream, card%entries(k)%items)
     end do
-  end subroutine get_tokens
+  end subroutine pass_entries
+
+  !> Passes a word with its places; one without a text becomes empty.
+  pure subroutine pass_token(stream, token)
+    type(byte_stream_t), intent(inout) :: stream
+    type(token_t), intent(inout) :: token
+
+    if (.not. allocated(token%text)) token%text = ""
+    call stream%pass_text(token%text)
+    call stream%pass(token%line)
+    call stream%pass(token%column)
+    call stream%pass(token%set_line)
+    call stream%pass(token%set_column)
+  end subroutine pass_token
+
+  !> Passes words, or that there is no list of them.
+  pure subroutine pass_tokens(stream, tokens)
+    type(byte_stream_t), intent(inout) :: stream
+    type(token_t), allocatable, intent(inout) :: tokens(:)
+
+    integer :: count, i
+
+    count = -1
+    if (allocated(tokens)) count = size(tokens)
+    call stream%pass(count)
+    if (stream%reads .and. count >= 0) allocate (tokens(count))
+    do i = 1, count
+      call pass_token(stream, tokens(i))
+    end do
+  end subroutine pass_tokens
 
 end module card_bytes

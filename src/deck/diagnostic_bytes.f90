@@ -1,83 +1,49 @@
 !> Errors and warnings about a deck as bytes, for tasks that are done elsewhere.
 module diagnostic_bytes
-  use byte_streams, only: get_integers, get_logicals, get_string, put_integers, put_logicals, &
-    put_string
-  use card_bytes, only: get_token, put_token
+  use byte_streams, only: byte_stream_t
+  use card_bytes, only: pass_token
   use diagnostics, only: append_message, diagnostic_t, diagnostics_t, message_list_t
-  use text_buffer, only: text_buffer_t
-  use warnings, only: get_warning, put_warning
+  use warnings, only: pass_warning
   implicit none (type, external)
   private
 
-  public :: put_diagnostics, get_diagnostics
+  public :: pass_diagnostics
 
 contains
 
-  !> Appends all messages to a buffer as bytes, in the order in which they were added.
-  pure subroutine put_diagnostics(buffer, diagnostics)
-    type(text_buffer_t), intent(inout) :: buffer   !! bytes, to be read by `get_diagnostics`
-    type(diagnostics_t), intent(in) :: diagnostics !! of a deck or a variant
+  !> Passes all messages, in the order in which they were added.
+  pure subroutine pass_diagnostics(stream, diagnostics)
+    type(byte_stream_t), intent(inout) :: stream
+    type(diagnostics_t), intent(inout) :: diagnostics !! new if they are read
 
-    call put_messages(buffer, diagnostics%errors)
-    call put_messages(buffer, diagnostics%warnings)
-  end subroutine put_diagnostics
+    call pass_messages(stream, diagnostics%errors)
+    call pass_messages(stream, diagnostics%warnings)
+  end subroutine pass_diagnostics
 
-  !> Reads what `put_diagnostics` wrote.
-  pure subroutine get_diagnostics(bytes, at, diagnostics)
-    character(len=*), intent(in) :: bytes           !! of `put_diagnostics`, among others
-    integer, intent(inout) :: at                    !! place of the first byte; on return, after the
-                                                    !! last
-    type(diagnostics_t), intent(out) :: diagnostics !! as they were put
-
-    call get_messages(bytes, at, diagnostics%errors)
-    call get_messages(bytes, at, diagnostics%warnings)
-  end subroutine get_diagnostics
-
-  pure subroutine put_messages(buffer, messages)
-    type(text_buffer_t), intent(inout) :: buffer
-    type(message_list_t), intent(in) :: messages
-
-    integer :: i
-
-    call put_integers(buffer, [messages%total, messages%kept])
-    do i = 1, messages%kept
-      associate (item => messages%list(i))
-        call put_string(buffer, item%message)
-        call put_token(buffer, item%place)
-        call put_string(buffer, item%note)
-        call put_token(buffer, item%second_place)
-        ! An error has no warning.
-        call put_integers(buffer, [item%kind])
-        call put_logicals(buffer, [allocated(item%warning%text)])
-        if (allocated(item%warning%text)) call put_warning(buffer, item%warning)
-      end associate
-    end do
-  end subroutine put_messages
-
-  pure subroutine get_messages(bytes, at, messages)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at
+  pure subroutine pass_messages(stream, messages)
+    type(byte_stream_t), intent(inout) :: stream
     type(message_list_t), intent(inout) :: messages
 
     type(diagnostic_t), allocatable :: item
-    integer :: counts(2), kind(1), i
-    logical :: warns(1)
+    integer :: kept, total, i
 
-    call get_integers(bytes, at, counts)
-    do i = 1, counts(2)
+    kept = messages%kept
+    total = messages%total
+    call stream%pass(kept)
+    call stream%pass(total)
+    do i = 1, kept
       allocate (item)
-      call get_string(bytes, at, item%message)
-      call get_token(bytes, at, item%place)
-      call get_string(bytes, at, item%note)
-      call get_token(bytes, at, item%second_place)
-      call get_integers(bytes, at, kind)
-      item%kind = kind(1)
-      call get_logicals(bytes, at, warns)
-      if (warns(1)) call get_warning(bytes, at, item%warning)
-      call append_message(messages, item)
+      if (.not. stream%reads) item = messages%list(i)
+      call stream%pass_text(item%message)
+      call pass_token(stream, item%place)
+      call stream%pass_text(item%note)
+      call pass_token(stream, item%second_place)
+      call stream%pass(item%kind)
+      call pass_warning(stream, item%warning)
+      if (stream%reads) call append_message(messages, item)
       deallocate (item)
     end do
-    messages%total = counts(1)
-  end subroutine get_messages
+    messages%total = total
+  end subroutine pass_messages
 
 end module diagnostic_bytes

@@ -3,21 +3,21 @@
 !! They are stored as bytes, item after item. Pieces that are computed in parallel can thus be
 !! joined by joining their bytes, kept in a journal as they are, and sent to another process.
 module table_rows
-  use byte_streams, only: get_integers, get_reals, get_string, put_integers, put_reals, put_string
+  use byte_streams, only: byte_stream_t
   use kinds, only: wp
-  use text_buffer, only: append_text, text_buffer_t
+  use text_buffer, only: append_text
   implicit none (type, external)
   private
 
   public :: rows_t, row_item_t, keep_cells, add_row, add_gap, add_failed_row, append_rows, &
-    next_item, put_rows, get_rows
+    next_item, pass_rows
   public :: item_row, item_gap, item_failure
 
   !> Kinds of items.
   integer, parameter :: item_row = 1, item_gap = 2, item_failure = 3
 
   type :: rows_t
-    type(text_buffer_t), private :: buffer             !! all items as bytes
+    type(byte_stream_t), private :: items              !! all items as bytes
     integer, allocatable, private :: first(:), last(:) !! (cells) characters of a row that are kept;
                                                        !! not allocated: all
   end type rows_t
@@ -52,9 +52,9 @@ contains
     character(len=len(cells)) :: kept
     integer :: i, length
 
-    call put_integers(rows%buffer, [item_row])
+    call rows%items%add(item_row)
     if (.not. allocated(rows%first)) then
-      call put_string(rows%buffer, cells)
+      call rows%items%add_text(cells)
       return
     end if
     length = 0
@@ -64,7 +64,7 @@ contains
         length = length + len(cell)
       end associate
     end do
-    call put_string(rows%buffer, kept(:length))
+    call rows%items%add_text(kept(:length))
   end subroutine add_row
 
   !> Appends empty lines: one where a curve breaks, two between blocks.
@@ -72,7 +72,8 @@ contains
     type(rows_t), intent(inout) :: rows !! so far
     integer, intent(in) :: lines        !! 1 or 2
 
-    call put_integers(rows%buffer, [item_gap, lines])
+    call rows%items%add(item_gap)
+    call rows%items%add(lines)
   end subroutine add_gap
 
   !> Appends a row that could not be computed.
@@ -81,9 +82,12 @@ contains
     real(wp), intent(in) :: place(:)       !! (first columns) known values: speed, crank angle
     character(len=*), intent(in) :: reason !! for the table
 
-    call put_integers(rows%buffer, [item_failure, size(place)])
-    call put_reals(rows%buffer, place)
-    call put_string(rows%buffer, reason)
+    real(wp), allocatable :: values(:)
+
+    allocate (values, source=place)
+    call rows%items%add(item_failure)
+    call rows%items%pass_allocatable(values)
+    call rows%items%add_text(reason)
   end subroutine add_failed_row
 
   !> Appends other rows.
@@ -91,60 +95,40 @@ contains
     type(rows_t), intent(inout) :: rows !! so far
     type(rows_t), intent(in) :: more    !! rows to append
 
-    if (more%buffer%length > 0) call append_text(rows%buffer, &
-      more%buffer%storage(:more%buffer%length))
+    associate (bytes => more%items%bytes)
+      if (bytes%length > 0) call append_text(rows%items%bytes, bytes%storage(:bytes%length))
+    end associate
   end subroutine append_rows
 
-  !> Reads one item and moves on to the next.
-  pure subroutine next_item(rows, at, item, found)
-    type(rows_t), intent(in) :: rows        !! to read
-    integer, intent(inout) :: at            !! byte of the item, from 1; of the next one after
+  !> Reads the first item, then one after the other. Rows are complete when they are read.
+  pure subroutine next_item(rows, item, found)
+    type(rows_t), intent(inout) :: rows     !! to read
     type(row_item_t), intent(inout) :: item !! unchanged if none is found
-    logical, intent(out) :: found           !! false beyond the last item
+    logical, intent(out) :: found           !! false beyond the last item; the next one is the first
+                                            !! again
 
-    integer :: number(1)
-
-    found = at <= rows%buffer%length
+    if (.not. rows%items%reads) rows%items%at = 1
+    found = .not. rows%items%is_at_end()
+    rows%items%reads = found
     if (.not. found) return
-    associate (stream => rows%buffer%storage)
-      call get_integers(stream, at, number)
-      item%kind = number(1)
-      select case (item%kind)
-      case (item_row)
-        call get_string(stream, at, item%text)
-      case (item_gap)
-        call get_integers(stream, at, number)
-        item%lines = number(1)
-      case (item_failure)
-        call get_integers(stream, at, number)
-        if (allocated(item%place)) deallocate (item%place)
-        allocate (item%place(number(1)))
-        call get_reals(stream, at, item%place)
-        call get_string(stream, at, item%text)
-      end select
-    end associate
+    call rows%items%pass(item%kind)
+    select case (item%kind)
+    case (item_row)
+      call rows%items%pass_text(item%text)
+    case (item_gap)
+      call rows%items%pass(item%lines)
+    case (item_failure)
+      call rows%items%pass_allocatable(item%place)
+      call rows%items%pass_text(item%text)
+    end select
   end subroutine next_item
 
-  !> Appends rows to a buffer as bytes, with their length.
-  pure subroutine put_rows(buffer, rows)
-    type(text_buffer_t), intent(inout) :: buffer !! the bytes are appended
-    type(rows_t), intent(in) :: rows             !! to append
+  !> Passes rows.
+  pure subroutine pass_rows(stream, rows)
+    type(byte_stream_t), intent(inout) :: stream
+    type(rows_t), intent(inout) :: rows
 
-    call put_integers(buffer, [rows%buffer%length])
-    if (rows%buffer%length > 0) call append_text(buffer, rows%buffer%storage(:rows%buffer%length))
-  end subroutine put_rows
-
-  !> Reads the bytes that `put_rows` wrote.
-  pure subroutine get_rows(bytes, at, rows)
-    character(len=*), intent(in) :: bytes !! with the rows at `at`
-    integer, intent(inout) :: at          !! first byte of the rows; moves beyond the last one
-    type(rows_t), intent(out) :: rows     !! as given to `put_rows`
-
-    integer :: length(1)
-
-    call get_integers(bytes, at, length)
-    if (length(1) > 0) call append_text(rows%buffer, bytes(at:at + length(1) - 1))
-    at = at + length(1)
-  end subroutine get_rows
+    call stream%pass_bytes(rows%items%bytes)
+  end subroutine pass_rows
 
 end module table_rows

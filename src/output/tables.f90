@@ -227,15 +227,13 @@ contains
   !> Writes rows, gaps and failures in their order.
   subroutine write_rows(table, rows)
     type(table_file_t), intent(inout) :: table !! with its header
-    type(rows_t), intent(in) :: rows      !! to write
+    type(rows_t), intent(inout) :: rows        !! to write
 
     type(row_item_t) :: item
-    integer :: at
     logical :: found
 
-    at = 1
     do
-      call next_item(rows, at, item, found)
+      call next_item(rows, item, found)
       if (.not. found) exit
       select case (item%kind)
       case (item_row)

@@ -1,6 +1,6 @@
 !> The output files of a run: opened together, put in place together.
 module deck_outputs
-  use byte_streams, only: get_reals, get_string, put_reals, put_string
+  use byte_streams, only: byte_stream_t
   use errors, only: error_t
   use file_system, only: joined_path
   use kinds, only: long, wp
@@ -17,7 +17,6 @@ module deck_outputs
     write_header, write_notes, write_rows
   use task_journal, only: begun, journal_name
   use text, only: append_string, string_t, word_list
-  use text_buffer, only: text_buffer_t
   use variant_results, only: variant_results_t
   use variant_rows, only: variant_rows_t
   implicit none (type, external)
@@ -37,7 +36,7 @@ module deck_outputs
     logical :: have_heads = .false.                       !! the tables; the first variant that is
                                                           !! computed brings them
     integer :: computed = 0                               !! variants with a result
-    type(text_buffer_t), private :: waiting               !! values and reasons of variants that
+    type(byte_stream_t), private :: waiting               !! values and reasons of variants that
                                                           !! failed before the tables had heads
     type(output_file_t), private :: echo, log, summary
   end type outputs_t
@@ -154,8 +153,9 @@ contains
 
     type(rows_t), allocatable :: failed
     character(len=:), allocatable :: reason
-    real(wp) :: values(size(varied)), no_place(0)
-    integer :: at
+    type(byte_stream_t) :: waiting
+    real(wp), allocatable :: values(:)
+    real(wp) :: no_place(0)
 
     call begin_variant(table, outputs%parameters, varied)
     if (outputs%have_heads) then
@@ -163,10 +163,11 @@ contains
       return
     end if
     call write_header(table, title, notes, columns)
-    at = 1
-    do while (at <= outputs%waiting%length)
-      call get_reals(outputs%waiting%storage, at, values)
-      call get_string(outputs%waiting%storage, at, reason)
+    waiting = outputs%waiting
+    waiting%reads = .true.
+    do while (.not. waiting%is_at_end())
+      call waiting%pass_allocatable(values)
+      call waiting%pass_text(reason)
       allocate (failed)
       call add_failed_row(failed, no_place, reason)
       call begin_variant(table, outputs%parameters, values)
@@ -203,7 +204,7 @@ contains
   pure subroutine forget_waiting(outputs)
     type(outputs_t), intent(inout) :: outputs !! opened
 
-    type(text_buffer_t) :: none
+    type(byte_stream_t) :: none
 
     outputs%waiting = none
   end subroutine forget_waiting
@@ -225,14 +226,14 @@ contains
   subroutine write_found_rows(outputs, title, found)
     type(outputs_t), intent(inout) :: outputs !! opened
     character(len=*), intent(in) :: title     !! of the deck; may be empty
-    type(variant_rows_t), intent(in) :: found !! rows of all tables
+    type(variant_rows_t), intent(inout) :: found !! rows of all tables
 
     integer(long) :: before(2)
     integer :: i
 
     if (found%has_failed .and. .not. outputs%have_heads) then
-      call put_reals(outputs%waiting, found%varied)
-      call put_string(outputs%waiting, found%findings%failed(1)%error%text)
+      call outputs%waiting%pass_allocatable(found%varied)
+      call outputs%waiting%pass_text(found%findings%failed(1)%error%text)
       return
     end if
     before = rows_written(outputs)

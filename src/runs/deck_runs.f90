@@ -1,9 +1,9 @@
 !> The run of one deck: its variants are computed, its files written.
 module deck_runs
   use, intrinsic :: iso_fortran_env, only: compiler_version
-  use byte_streams, only: get_integers, put_integers, put_string
+  use byte_streams, only: byte_stream_t
   use cards, only: card_t
-  use deck_bytes, only: get_deck, put_deck
+  use deck_bytes, only: pass_deck
   use deck_outputs, only: close_outputs, discard_outputs, open_outputs, open_part, outputs_t, &
     publish_outputs, write_found_rows, write_texts, write_variant
   use deck_readings, only: deck_t
@@ -33,7 +33,6 @@ module deck_runs
   use task_journal, only: close_journal, journal_t, keeps_tasks, open_journal, &
     publish_journal, remove_journal
   use text, only: append_string, plural, string_t, to_string
-  use text_buffer, only: text_buffer_t
   use variant_findings, only: find_failures, find_warnings, totals_of
   use variant_log, only: log_of_variant
   use variant_checks, only: begin_checks, check_t, check_number, checks_t, conclude_checks, &
@@ -98,7 +97,7 @@ module deck_runs
 
   !> Form of the bytes in a journal: another number wherever they mean something else, since the
   !! version of the program may stay the same.
-  character(len=*), parameter :: journal_form = "journal 11"
+  character(len=*), parameter :: journal_form = "journal 12"
 
 contains
 
@@ -336,7 +335,7 @@ contains
   !> Computes a variant on all threads and writes its rows; of the first one it also keeps the log.
   !! Errors: the own modes of a link could not be found, in the only variant of a deck.
   subroutine run_whole_variant(deck, number, threads, session, error)
-    type(deck_t), intent(in) :: deck
+    type(deck_t), intent(inout) :: deck !! the same on return
     integer, intent(in) :: number !! of the variant, from 1
     integer, intent(in) :: threads
     type(session_t), intent(inout) :: session
@@ -349,7 +348,8 @@ contains
     type(findings_t) :: findings
     type(run_totals_t) :: totals
     type(stopwatch_t) :: watch
-    type(text_buffer_t) :: announced
+    type(byte_stream_t) :: announced
+    type(string_t) :: no_settings(0)
     real(wp) :: computing, writing
 
     call start_stopwatch(watch)
@@ -368,10 +368,10 @@ contains
       call begin_variant_run(run, model)
     end if
     if (rank_count() > 1) then
-      call put_string(announced, blocks_announced)
-      call put_deck(announced, deck)
-      call put_integers(announced, [number])
-      run%announcement = announced%storage(:announced%length)
+      call announced%add_text(blocks_announced)
+      call pass_deck(announced, deck, no_settings)
+      call announced%add(number)
+      run%announcement = announced%bytes%storage(:announced%bytes%length)
     end if
     call compute_variant(run, threads, session%journal, number, store%links, error)
     if (variant_count(deck%cards) == 1) session%progress = run%progress
@@ -416,7 +416,7 @@ contains
   !> Computes all variants and writes their rows in order. Several are computed at a time if one of
   !! them has too few positions for all threads. Errors: as for `run_whole_variant`.
   subroutine run_variants(deck, options, session, error)
-    type(deck_t), intent(in), target :: deck
+    type(deck_t), intent(inout), target :: deck !! the same on return
     type(run_options_t), intent(in) :: options
     type(session_t), intent(inout), target :: session
     type(error_t), allocatable, intent(out) :: error
@@ -458,9 +458,8 @@ contains
   end subroutine run_variants
 
   !> Helps the leader with the blocks of a sweep that it has announced.
-  subroutine help_with_blocks(bytes, at, settings, threads)
-    character(len=*), intent(in) :: bytes     !! that announce them
-    integer, intent(inout) :: at              !! place of the first byte; on return, after the last
+  subroutine help_with_blocks(stream, settings, threads)
+    type(byte_stream_t), intent(inout) :: stream !! that announces them
     type(string_t), intent(in) :: settings(:) !! of the command line
     integer, intent(in) :: threads            !! number to use
 
@@ -469,11 +468,11 @@ contains
     type(model_t) :: model
     type(card_t), allocatable :: cards(:)
     type(diagnostics_t) :: none
-    integer :: number(1)
+    integer :: number
 
-    call get_deck(bytes, at, settings, deck)
-    call get_integers(bytes, at, number)
-    call read_variant(deck%cards, number(1), cards, none, model)
+    call pass_deck(stream, deck, settings)
+    call stream%pass(number)
+    call read_variant(deck%cards, number, cards, none, model)
     call begin_variant_run(run, model)
     call help_with_variant(run, threads)
   end subroutine help_with_blocks

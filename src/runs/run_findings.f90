@@ -1,17 +1,15 @@
 !> What a run reports besides its tables: failed rows and warnings about results.
 module run_findings
-  use byte_streams, only: get_error, get_integers, get_logicals, get_reals, get_string, put_error, &
-    put_integers, put_logicals, put_reals, put_string
+  use byte_streams, only: byte_stream_t, pass_error
   use errors, only: error_t
   use kinds, only: long, wp
   use text, only: append_string, string_t
-  use text_buffer, only: text_buffer_t
-  use warnings, only: counted_text, get_warning, join_warning, put_warning, warning_t
+  use warnings, only: counted_text, join_warning, pass_warning, warning_t
   implicit none (type, external)
   private
 
-  public :: findings_t, failure_t, add_failure, add_warning_of_run, add_findings, put_findings, &
-    get_findings, warnings_of_grade, untold_failures, most_failures
+  public :: findings_t, failure_t, add_failure, add_warning_of_run, add_findings, &
+    pass_findings, warnings_of_grade, untold_failures, most_failures
 
   !> A position, a speed, an instant or a variant without a result.
   type :: failure_t
@@ -147,97 +145,53 @@ contains
     end do
   end function warnings_of_grade
 
-  !> Appends findings to a buffer as bytes.
-  pure subroutine put_findings(buffer, findings)
-    type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_findings`
-    type(findings_t), intent(in) :: findings     !! of one variant
-
-    integer :: i
-
-    ! Of one variant, which has fewer failures than a whole number can say.
-    call put_integers(buffer, [int(findings%failures), findings%kept, findings%warning_count])
-    do i = 1, findings%kept
-      associate (failure => findings%failed(i))
-        call put_string(buffer, trim(failure%stage))
-        call put_integers(buffer, [failure%position, size(failure%varied)])
-        call put_reals(buffer, failure%varied)
-        call put_error(buffer, failure%error)
-        call put_string(buffer, failure%variant)
-        call put_logicals(buffer, [allocated(failure%crank), allocated(failure%speed), &
-          allocated(failure%time)])
-        if (allocated(failure%crank)) then
-          call put_reals(buffer, [failure%crank])
-          call put_string(buffer, failure%crank_words)
-        end if
-        if (allocated(failure%speed)) then
-          call put_reals(buffer, [failure%speed])
-          call put_string(buffer, failure%speed_words)
-        end if
-        if (allocated(failure%time)) call put_reals(buffer, [failure%time])
-      end associate
-    end do
-    do i = 1, findings%warning_count
-      call put_warning(buffer, findings%warnings(i))
-    end do
-  end subroutine put_findings
-
-  !> Reads what `put_findings` wrote.
-  pure subroutine get_findings(bytes, at, findings)
-    character(len=*), intent(in) :: bytes     !! of `put_findings`, among others
-    integer, intent(inout) :: at              !! place of the first byte; on return, after the last
-    type(findings_t), intent(out) :: findings !! of one variant
+  !> Passes the findings of one variant.
+  pure subroutine pass_findings(stream, findings)
+    type(byte_stream_t), intent(inout) :: stream
+    type(findings_t), intent(inout) :: findings !! new if they are read
 
     type(failure_t), allocatable :: failure
-    type(warning_t) :: warning
-    integer :: counts(3), i
+    type(warning_t), allocatable :: warning
+    integer(long) :: failures
+    integer :: kept, warnings, i
 
-    call get_integers(bytes, at, counts)
-    do i = 1, counts(2)
+    failures = findings%failures
+    kept = findings%kept
+    warnings = findings%warning_count
+    call stream%pass(failures)
+    call stream%pass(kept)
+    call stream%pass(warnings)
+    do i = 1, kept
       allocate (failure)
-      call get_failure(bytes, at, failure)
-      call add_failure(findings, failure)
+      if (.not. stream%reads) failure = findings%failed(i)
+      call pass_failure(stream, failure)
+      if (stream%reads) call add_failure(findings, failure)
       deallocate (failure)
     end do
-    findings%failures = counts(1)
-    do i = 1, counts(3)
-      call get_warning(bytes, at, warning)
-      call add_warning_of_run(findings, warning)
+    findings%failures = failures
+    do i = 1, warnings
+      allocate (warning)
+      if (.not. stream%reads) warning = findings%warnings(i)
+      call pass_warning(stream, warning)
+      if (stream%reads) call add_warning_of_run(findings, warning)
+      deallocate (warning)
     end do
-  end subroutine get_findings
+  end subroutine pass_findings
 
-  pure subroutine get_failure(bytes, at, failure)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at
+  pure subroutine pass_failure(stream, failure)
+    type(byte_stream_t), intent(inout) :: stream
     type(failure_t), intent(inout) :: failure
 
-    character(len=:), allocatable :: stage
-    real(wp) :: number(1)
-    integer :: codes(2)
-    logical :: has(3)
-
-    call get_string(bytes, at, stage)
-    failure%stage = stage
-    call get_integers(bytes, at, codes)
-    failure%position = codes(1)
-    allocate (failure%varied(codes(2)))
-    call get_reals(bytes, at, failure%varied)
-    call get_error(bytes, at, failure%error)
-    call get_string(bytes, at, failure%variant)
-    call get_logicals(bytes, at, has)
-    if (has(1)) then
-      call get_reals(bytes, at, number)
-      failure%crank = number(1)
-      call get_string(bytes, at, failure%crank_words)
-    end if
-    if (has(2)) then
-      call get_reals(bytes, at, number)
-      failure%speed = number(1)
-      call get_string(bytes, at, failure%speed_words)
-    end if
-    if (has(3)) then
-      call get_reals(bytes, at, number)
-      failure%time = number(1)
-    end if
-  end subroutine get_failure
+    call stream%pass_word(failure%stage)
+    call stream%pass(failure%position)
+    call stream%pass_allocatable(failure%crank)
+    call stream%pass_allocatable(failure%speed)
+    call stream%pass_allocatable(failure%time)
+    call stream%pass_text(failure%crank_words)
+    call stream%pass_text(failure%speed_words)
+    call pass_error(stream, failure%error)
+    call stream%pass_text(failure%variant)
+    call stream%pass_allocatable(failure%varied)
+  end subroutine pass_failure
 
 end module run_findings

@@ -1,16 +1,14 @@
 !> How much a run computed, over all variants, between which limits the results are, and how long it
 !! took.
 module run_totals
-  use byte_streams, only: get_integers, get_logicals, get_reals, put_integers, put_logicals, &
-    put_reals
+  use byte_streams, only: byte_stream_t
   use kinds, only: long, wp
   use ledger, only: add_ledger, ledger_t
-  use sweep_bytes, only: get_ledger, put_ledger
-  use text_buffer, only: text_buffer_t
+  use sweep_bytes, only: pass_ledger
   implicit none (type, external)
   private
 
-  public :: run_totals_t, add_totals, put_totals, get_totals, range_t, widen, is_empty
+  public :: run_totals_t, add_totals, pass_totals, range_t, widen, is_empty
 
   !> From the least to the greatest of some values; the other way round if there is none.
   type :: range_t
@@ -96,54 +94,35 @@ contains
     totals%writing = totals%writing + more%writing
   end subroutine add_totals
 
-  !> Appends totals to a buffer as bytes, without times: a resumed run has not spent them.
-  pure subroutine put_totals(buffer, totals)
-    type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_totals`
-    type(run_totals_t), intent(in) :: totals     !! of one variant or more
+  !> Passes totals but for times: a resumed run has not spent them.
+  pure subroutine pass_totals(stream, totals)
+    type(byte_stream_t), intent(inout) :: stream
+    type(run_totals_t), intent(inout) :: totals !! of one variant or more; new if they are read
 
-    call put_integers(buffer, [totals%variants, totals%speeds])
-    call put_integers(buffer, transfer([totals%rows, totals%positions, &
-      totals%kinematic_solutions, totals%motion_steps, totals%response_speeds, &
-      totals%applications], [0]))
-    call put_logicals(buffer, [totals%has_frequencies])
-    call put_ledger(buffer, totals%counts)
-    call put_reals(buffer, [totals%largest_error, totals%lowest%least, totals%lowest%most, &
-      totals%highest%least, totals%highest%most, totals%torque%least, totals%torque%most, &
-      totals%strain, totals%displacement])
-  end subroutine put_totals
+    call stream%pass(totals%variants)
+    call stream%pass(totals%rows)
+    call stream%pass(totals%positions)
+    call stream%pass(totals%kinematic_solutions)
+    call stream%pass(totals%speeds)
+    call stream%pass(totals%motion_steps)
+    call stream%pass(totals%has_frequencies)
+    call pass_ledger(stream, totals%counts)
+    call stream%pass(totals%largest_error)
+    call pass_range(stream, totals%lowest)
+    call pass_range(stream, totals%highest)
+    call pass_range(stream, totals%torque)
+    call stream%pass(totals%response_speeds)
+    call stream%pass(totals%applications)
+    call stream%pass(totals%strain)
+    call stream%pass(totals%displacement)
+  end subroutine pass_totals
 
-  !> Reads what `put_totals` wrote.
-  pure subroutine get_totals(bytes, at, totals)
-    character(len=*), intent(in) :: bytes     !! of `put_totals`, among others
-    integer, intent(inout) :: at              !! place of the first byte; on return, after the last
-    type(run_totals_t), intent(out) :: totals !! with times of 0
+  pure subroutine pass_range(stream, range)
+    type(byte_stream_t), intent(inout) :: stream
+    type(range_t), intent(inout) :: range
 
-    integer(long) :: counts(6)
-    integer :: numbers(2), words(size(transfer(spread(0_long, 1, 6), [0])))
-    logical :: has_frequencies(1)
-    real(wp) :: reals(9)
-
-    call get_integers(bytes, at, numbers)
-    call get_integers(bytes, at, words)
-    counts = transfer(words, counts)
-    call get_logicals(bytes, at, has_frequencies)
-    call get_ledger(bytes, at, totals%counts)
-    call get_reals(bytes, at, reals)
-    totals%variants = numbers(1)
-    totals%speeds = numbers(2)
-    totals%rows = counts(1)
-    totals%positions = counts(2)
-    totals%kinematic_solutions = counts(3)
-    totals%motion_steps = counts(4)
-    totals%response_speeds = counts(5)
-    totals%applications = counts(6)
-    totals%has_frequencies = has_frequencies(1)
-    totals%largest_error = reals(1)
-    totals%lowest = range_t(reals(2), reals(3))
-    totals%highest = range_t(reals(4), reals(5))
-    totals%torque = range_t(reals(6), reals(7))
-    totals%strain = reals(8)
-    totals%displacement = reals(9)
-  end subroutine get_totals
+    call stream%pass(range%least)
+    call stream%pass(range%most)
+  end subroutine pass_range
 
 end module run_totals

@@ -1,9 +1,9 @@
 !> A job that measures another one.
 module recorded_jobs
+  use byte_streams, only: byte_stream_t
   use jobs, only: job_t
   use kinds, only: wp
   use omp_lib, only: omp_get_wtime
-  use text_buffer, only: text_buffer_t
   implicit none (type, external)
   private
 
@@ -16,8 +16,7 @@ module recorded_jobs
     integer, allocatable :: bytes(:)      !! (tasks)
   contains
     procedure :: run
-    procedure :: pack
-    procedure :: unpack
+    procedure :: pass
     procedure :: finish
   end type recorded_job_t
 
@@ -28,34 +27,27 @@ contains
     class(recorded_job_t), intent(inout) :: self
     integer, intent(in) :: number
 
-    type(text_buffer_t) :: bytes
+    type(byte_stream_t) :: stream, second
     real(wp) :: start
 
     start = omp_get_wtime()
     call self%inner%run(number)
-    call self%inner%pack(number, bytes)
+    call self%inner%pass(number, stream)
     self%computing(number) = omp_get_wtime() - start
-    self%bytes(number) = bytes%length
+    self%bytes(number) = stream%bytes%length
     start = omp_get_wtime()
-    call self%inner%unpack(number, bytes%storage(:bytes%length))
+    call second%open(stream%bytes%storage(:stream%bytes%length))
+    call self%inner%pass(number, second)
     self%writing(number) = omp_get_wtime() - start
   end subroutine run
 
-  subroutine pack(self, number, bytes)
-    class(recorded_job_t), intent(in) :: self
-    integer, intent(in) :: number
-    type(text_buffer_t), intent(inout) :: bytes
-
-    call self%inner%pack(number, bytes)
-  end subroutine pack
-
-  subroutine unpack(self, number, bytes)
+  subroutine pass(self, number, stream)
     class(recorded_job_t), intent(inout) :: self
     integer, intent(in) :: number
-    character(len=*), intent(in) :: bytes
+    type(byte_stream_t), intent(inout) :: stream
 
-    call self%inner%unpack(number, bytes)
-  end subroutine unpack
+    call self%inner%pass(number, stream)
+  end subroutine pass
 
   subroutine finish(self, number)
     class(recorded_job_t), intent(inout) :: self

@@ -1,10 +1,11 @@
 !> A job that sleeps as long as recorded tasks took, and gives as many bytes: so a machine of two
 !! processors can be a farm of many ranks.
 module sleeping_jobs
+  use byte_streams, only: byte_stream_t
   use jobs, only: job_t
   use kinds, only: wp
   use pauses, only: pause_for
-  use text_buffer, only: append_text, text_buffer_t
+  use text_buffer, only: append_text
   implicit none (type, external)
   private
 
@@ -17,8 +18,7 @@ module sleeping_jobs
     real(wp) :: owed = 0.0_wp             !! of the leader, less than is worth a sleep [s]
   contains
     procedure :: run
-    procedure :: pack
-    procedure :: unpack
+    procedure :: pass
     procedure :: finish
   end type sleeping_job_t
 
@@ -33,10 +33,10 @@ contains
     real(wp), intent(in) :: slower
     type(sleeping_job_t), intent(out) :: job
 
-    integer :: unit, status, count, pass, bytes
+    integer :: unit, status, count, round, bytes
     real(wp) :: computing, writing
 
-    do pass = 1, 2
+    do round = 1, 2
       open (newunit=unit, file=record, status="old", action="read")
       read (unit, *)
       count = 0
@@ -44,13 +44,13 @@ contains
         read (unit, *, iostat=status) computing, bytes, writing
         if (status /= 0) exit
         count = count + 1
-        if (pass == 1) cycle
+        if (round == 1) cycle
         job%computing(count) = slower*computing
         job%writing(count) = slower*writing
         job%bytes(count) = bytes
       end do
       close (unit)
-      if (pass == 1) allocate (job%computing(count), job%writing(count), job%bytes(count))
+      if (round == 1) allocate (job%computing(count), job%writing(count), job%bytes(count))
     end do
   end subroutine new_sleeping_job
 
@@ -61,23 +61,13 @@ contains
     call pause_for(max(0.0_wp, self%computing(number) - overslept))
   end subroutine run
 
-  subroutine pack(self, number, bytes)
-    class(sleeping_job_t), intent(in) :: self
-    integer, intent(in) :: number
-    type(text_buffer_t), intent(inout) :: bytes
-
-    call append_text(bytes, repeat("x", self%bytes(number)))
-  end subroutine pack
-
-  subroutine unpack(self, number, bytes)
+  subroutine pass(self, number, stream)
     class(sleeping_job_t), intent(inout) :: self
     integer, intent(in) :: number
-    character(len=*), intent(in) :: bytes
+    type(byte_stream_t), intent(inout) :: stream
 
-    associate (nothing => [len(bytes), number])
-    end associate
-    self%owed = self%owed + 0.0_wp
-  end subroutine unpack
+    if (.not. stream%reads) call append_text(stream%bytes, repeat("x", self%bytes(number)))
+  end subroutine pass
 
   !> Many short times are slept at once.
   subroutine finish(self, number)

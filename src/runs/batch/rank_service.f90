@@ -3,16 +3,15 @@
 !! An announcement is complete in itself: the deck, and what the job is about. A new kind of job has
 !! a word of its own, and a case in `serve_leader`.
 module rank_service
-  use byte_streams, only: get_integers, get_string, put_integers, put_string
+  use byte_streams, only: byte_stream_t
   use deck_runs, only: blocks_announced, help_with_blocks
   use omp_lib, only: omp_get_wtime
   use kinds, only: wp
   use pauses, only: pause_for
-  use rank_tasks, only: await_message, drop_results, look_again, topic_of_commands, &
-    topic_of_farewells
+  use rank_tasks, only: await_message, drop_results, look_again, send_stream, &
+    topic_of_commands, topic_of_farewells
   use ranks, only: abandon_ranks, end_ranks, leader, rank_count, receive_message, send_message
   use text, only: string_t
-  use text_buffer, only: text_buffer_t
   use variant_tasks, only: help_with_variants, variants_announced
   implicit none (type, external)
   private
@@ -29,18 +28,19 @@ contains
     type(string_t), intent(in) :: settings(:) !! of the command line
 
     character(len=:), allocatable :: bytes, word
-    integer :: threads(1), at
+    type(byte_stream_t) :: stream
+    integer :: threads
 
     do
       call await_message(topic_of_commands, bytes)
-      at = 1
-      call get_integers(bytes, at, threads)
-      call get_string(bytes, at, word)
+      call stream%open(bytes)
+      call stream%pass(threads)
+      call stream%pass_text(word)
       select case (word)
       case (variants_announced)
-        call help_with_variants(bytes, at, settings, threads(1))
+        call help_with_variants(stream, settings, threads)
       case (blocks_announced)
-        call help_with_blocks(bytes, at, settings, threads(1))
+        call help_with_blocks(stream, settings, threads)
       case (end_announced)
         exit
       end select
@@ -55,16 +55,16 @@ contains
     integer, intent(in) :: status    !! exit status of the program
     real(wp), intent(in) :: patience !! for ranks that do a task that nobody needs any more [s]
 
-    type(text_buffer_t) :: bytes
+    type(byte_stream_t) :: stream
     character(len=:), allocatable :: word
     real(wp) :: start
     integer :: rank, gone
     logical :: found
 
-    call put_integers(bytes, [0])
-    call put_string(bytes, end_announced)
+    call stream%add(0)
+    call stream%add_text(end_announced)
     do rank = 0, rank_count() - 1
-      if (rank /= leader) call send_message(rank, topic_of_commands, bytes%storage(:bytes%length))
+      if (rank /= leader) call send_stream(rank, topic_of_commands, stream)
     end do
     gone = 1
     start = omp_get_wtime()

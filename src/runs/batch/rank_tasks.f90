@@ -4,7 +4,7 @@
 !! Tasks are handed out a few at a time, so many that they take some milliseconds, and before the
 !! last ones are done: nobody waits for the leader.
 module rank_tasks
-  use byte_streams, only: get_integers, get_reals, put_integers, put_reals
+  use byte_streams, only: byte_stream_t
   use interruption, only: interrupt, was_interrupted
   use jobs, only: job_t
   use kinds, only: wp
@@ -17,7 +17,8 @@ module rank_tasks
   implicit none (type, external)
   private
 
-  public :: has_help, announce_job, serve_ranks, help_with_tasks, await_message, drop_results
+  public :: has_help, announce_job, serve_ranks, help_with_tasks, await_message, drop_results, &
+    send_stream
   public :: topic_of_commands, topic_of_farewells, look_again
 
   !> What messages are about: commands of the leader to a rank as a whole; results of a thread; that
@@ -62,13 +63,13 @@ contains
     class(job_t), intent(in) :: job !! with its announcement
     integer, intent(in) :: threads  !! number for every rank to use
 
-    type(text_buffer_t) :: bytes
+    type(byte_stream_t) :: stream
     integer :: rank
 
-    call put_integers(bytes, [threads])
-    call append_text(bytes, job%announcement)
+    call stream%add(threads)
+    call append_text(stream%bytes, job%announcement)
     do rank = 0, rank_count() - 1
-      if (rank /= leader) call send_message(rank, topic_of_commands, bytes%storage(:bytes%length))
+      if (rank /= leader) call send_stream(rank, topic_of_commands, stream)
     end do
   end subroutine announce_job
 
@@ -119,12 +120,14 @@ contains
     integer, intent(in) :: rank
     character(len=*), intent(in) :: results
 
-    real(wp) :: time(1)
-    integer :: head(3), length(1), number, at, thread
+    type(byte_stream_t) :: stream
+    type(text_buffer_t) :: bytes
+    real(wp) :: time
+    integer :: head(3), number, thread
 
-    at = 1
-    call get_integers(results, at, head)
-    call get_reals(results, at, time)
+    call stream%open(results)
+    call stream%pass(head)
+    call stream%pass(time)
     thread = 1 + (rank - 1)*helpers%threads + head(1)
     if (head(3) < head(2)) then
       ! The first message of a thread has no results; so has the last one, if the thread stops.
@@ -132,16 +135,14 @@ contains
       if (head(2) < 0) call interrupt()
     end if
     helpers%tasks = helpers%tasks + head(3) - head(2) + 1
-    helpers%time = helpers%time + time(1)
+    helpers%time = helpers%time + time
     do number = head(2), head(3)
-      call get_integers(results, at, length)
+      call stream%pass_bytes(bytes)
       ! Not in the critical section, for a task may enter it.
-      if (length(1) == 0) call job%run(number)
+      if (bytes%length == 0) call job%run(number)
       !$omp critical (one_at_a_time)
-      if (.not. allocated(job%error)) call take_result(pool, job, journal, number, &
-        results(at:at + length(1) - 1))
+      if (.not. allocated(job%error)) call take_result(pool, job, journal, number, bytes)
       !$omp end critical (one_at_a_time)
-      at = at + length(1)
     end do
     call let_wait(helpers, thread)
     if (helpers%portions(thread) == 1 .and. time_of_task(helpers) < portion) then
@@ -211,11 +212,12 @@ contains
     type(helpers_t), intent(in) :: helpers
     integer, intent(in) :: thread, first, last
 
-    type(text_buffer_t) :: bytes
+    type(byte_stream_t) :: stream
 
-    call put_integers(bytes, [first, last])
-    call send_message(1 + (thread - 1)/helpers%threads, topic_of_tasks + modulo(thread - 1, &
-      helpers%threads), bytes%storage(:bytes%length))
+    call stream%add(first)
+    call stream%add(last)
+    call send_stream(1 + (thread - 1)/helpers%threads, topic_of_tasks + modulo(thread - 1, &
+      helpers%threads), stream)
   end subroutine send_tasks
 
   !> Helps the leader with a job: does the tasks that it hands out, on several threads, and sends it
@@ -234,30 +236,29 @@ contains
     integer, intent(in) :: thread !! from 0
 
     character(len=:), allocatable :: tasks
-    type(text_buffer_t) :: packed, results
-    integer :: bounds(2), number, at
+    type(byte_stream_t) :: stream, one, results
+    integer :: bounds(2), number
     real(wp) :: start
 
     call send_results([thread, 1, 0], 0.0_wp, results)
     do
       call await_message(topic_of_tasks + thread, tasks)
-      at = 1
-      call get_integers(tasks, at, bounds)
+      call stream%open(tasks)
+      call stream%pass(bounds)
       if (bounds(2) < bounds(1)) exit
-      results%length = 0
+      results%bytes%length = 0
       start = omp_get_wtime()
       do number = bounds(1), bounds(2)
         call job%run(number)
         if (was_interrupted()) then
-          call send_results([thread, -1, -2], 0.0_wp, packed)
+          call send_results([thread, -1, -2], 0.0_wp, one)
           return
         end if
-        packed%length = 0
+        one%bytes%length = 0
         !$omp critical (one_at_a_time)
-        call job%pack(number, packed)
+        call job%pass(number, one)
         !$omp end critical (one_at_a_time)
-        call put_integers(results, [packed%length])
-        if (packed%length > 0) call append_text(results, packed%storage(:packed%length))
+        call results%pass_bytes(one%bytes)
       end do
       call send_results([thread, bounds], omp_get_wtime() - start, results)
     end do
@@ -266,15 +267,29 @@ contains
   subroutine send_results(head, time, results)
     integer, intent(in) :: head(3) !! number of the thread, of the first and the last task
     real(wp), intent(in) :: time   !! that they took [s]
-    type(text_buffer_t), intent(in) :: results
+    type(byte_stream_t), intent(in) :: results
 
-    type(text_buffer_t) :: bytes
+    type(byte_stream_t) :: stream
+    integer :: numbers(3)
+    real(wp) :: seconds
 
-    call put_integers(bytes, head)
-    call put_reals(bytes, [time])
-    if (head(3) >= head(2)) call append_text(bytes, results%storage(:results%length))
-    call send_message(leader, topic_of_results, bytes%storage(:bytes%length))
+    numbers = head
+    seconds = time
+    call stream%pass(numbers)
+    call stream%pass(seconds)
+    if (head(3) >= head(2)) call append_text(stream%bytes, &
+      results%bytes%storage(:results%bytes%length))
+    call send_stream(leader, topic_of_results, stream)
   end subroutine send_results
+
+  !> Sends what a stream has written.
+  subroutine send_stream(rank, topic, stream)
+    integer, intent(in) :: rank  !! of the receiver
+    integer, intent(in) :: topic !! what it is about
+    type(byte_stream_t), intent(in) :: stream
+
+    call send_message(rank, topic, stream%bytes%storage(:stream%bytes%length))
+  end subroutine send_stream
 
   !> Takes results that nobody needs any more, so that those who send them go on.
   subroutine drop_results()

@@ -7,7 +7,6 @@
 !! understood it, and the program that computed it: a journal of another deck or program is not
 !! used.
 module task_journal
-  use byte_streams, only: get_integers, put_integers
   use errors, only: error_of_files, error_t, set_error
   use file_system, only: file_exists, joined_path, remove_file, rename_file, shorten_file, &
     system_reason
@@ -234,9 +233,8 @@ contains
     integer, intent(in) :: file         !! its number; 0: the journal itself
     integer(long), intent(out) :: next  !! place after the last complete block
 
-    character(len=mark_bytes) :: mark, end_mark
     integer(long) :: bytes, place
-    integer :: numbers(marks), at, status
+    integer :: mark(marks), end_mark(marks), status
 
     inquire (unit=unit, size=bytes)
     inquire (unit=unit, pos=next)
@@ -244,15 +242,13 @@ contains
     do
       read (unit, pos=next, iostat=status) mark
       if (status /= 0) exit
-      at = 1
-      call get_integers(mark, at, numbers)
-      if (any(numbers(:2) < 0) .or. numbers(3) <= 0) exit
+      if (any(mark(:2) < 0) .or. mark(3) <= 0) exit
       place = next + mark_bytes
-      if (place + numbers(3) + mark_bytes - 1 > bytes) exit
-      read (unit, pos=place + numbers(3), iostat=status) end_mark
-      if (status /= 0 .or. end_mark /= mark) exit
-      call add_block(journal, block_t(numbers(:2), numbers(3), file, place))
-      next = place + numbers(3) + mark_bytes
+      if (place + mark(3) + mark_bytes - 1 > bytes) exit
+      read (unit, pos=place + mark(3), iostat=status) end_mark
+      if (status /= 0 .or. any(end_mark /= mark)) exit
+      call add_block(journal, block_t(mark(:2), mark(3), file, place))
+      next = place + mark(3) + mark_bytes
     end do
   end subroutine read_blocks
 
@@ -279,8 +275,7 @@ contains
                                                         !! is not in the journal
     logical, intent(out) :: found                       !! whether the bytes could be read
 
-    character(len=mark_bytes) :: mark
-    integer :: numbers(marks), unit, status, at
+    integer :: mark(marks), unit, status
 
     found = has_task(journal, task)
     if (.not. found) return
@@ -289,10 +284,8 @@ contains
       allocate (character(len=block%length) :: bytes)
       read (unit, pos=block%place - mark_bytes, iostat=status) mark, bytes
     end associate
-    at = 1
-    if (status == 0) call get_integers(mark, at, numbers)
     found = status == 0
-    if (found) found = numbers(marks) == checksum_of(bytes)
+    if (found) found = mark(marks) == checksum_of(bytes)
   end subroutine recall_task
 
   !> A sum that tells bytes from those in which some are changed: two sums of words, the second of
@@ -423,14 +416,14 @@ contains
     integer, intent(in) :: task(2)            !! group and number
     type(text_buffer_t), intent(in) :: bytes  !! what the task gave
 
-    type(text_buffer_t) :: mark
+    character(len=mark_bytes) :: mark
     integer(long) :: now, rate
 
     if (.not. keeps_tasks(journal)) return
-    call put_integers(mark, [task, bytes%length, checksum_of(bytes%storage(:bytes%length))])
-    call append_output(journal%file, mark%storage(:mark%length))
+    mark = transfer([task, bytes%length, checksum_of(bytes%storage(:bytes%length))], mark)
+    call append_output(journal%file, mark)
     call append_output(journal%file, bytes%storage(:bytes%length))
-    call append_output(journal%file, mark%storage(:mark%length))
+    call append_output(journal%file, mark)
     journal%kept = journal%kept + 1
     call system_clock(now, rate)
     if (real(now - journal%clock, wp) < flush_time*real(rate, wp)) return
@@ -441,14 +434,14 @@ contains
   subroutine begin_journal(journal)
     type(journal_t), intent(inout) :: journal
 
-    type(text_buffer_t) :: head
+    character(len=storage_size(1)/8) :: length
 
     journal%is_open = .true.
     call open_output(journal%path, journal%file, journal%error)
     if (allocated(journal%error)) return
-    call put_integers(head, [len(journal%title)])
-    journal%first = head%length + len(journal%title) + 1
-    call append_output(journal%file, head%storage(:head%length)//journal%title)
+    length = transfer(len(journal%title), length)
+    journal%first = len(length) + len(journal%title) + 1
+    call append_output(journal%file, length//journal%title)
   end subroutine begin_journal
 
   !> Closes the journal of an interrupted run.

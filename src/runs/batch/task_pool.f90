@@ -1,10 +1,11 @@
 !> The tasks of a job on the rank that leads: which are to be handed out, which are done, whose turn
 !! it is to be finished. One thread at a time may use a pool.
 module task_pool
+  use byte_streams, only: byte_stream_t
   use interruption, only: was_interrupted
   use jobs, only: job_t
   use task_journal, only: journal_t, keep_task, keeps_tasks, recall_task
-  use text_buffer, only: append_text, text_buffer_t
+  use text_buffer, only: text_buffer_t
   implicit none (type, external)
   private
 
@@ -45,6 +46,7 @@ contains
     integer, intent(in) :: most               !! number to take, at least 1
     integer, intent(out) :: first, last       !! numbers; last < first: none now
 
+    type(byte_stream_t) :: stream
     character(len=:), allocatable :: recalled
     integer :: limit, number
     logical :: found
@@ -64,7 +66,8 @@ contains
       last = number - 1
       pool%next = number
       if (number < first + most .and. number <= limit) then
-        call job%unpack(number, recalled)
+        call stream%open(recalled)
+        call job%pass(number, stream)
         pool%next = number + 1
         call deliver_task(pool, job, number)
       end if
@@ -75,16 +78,16 @@ contains
   !> Adds the results of a task to the journal.
   subroutine keep_done_task(pool, job, journal, number)
     type(task_pool_t), intent(in) :: pool
-    class(job_t), intent(in) :: job           !! with the results
+    class(job_t), intent(inout) :: job        !! with the results
     type(journal_t), intent(inout) :: journal !! of the run
     integer, intent(in) :: number             !! of the task
 
-    type(text_buffer_t) :: bytes
+    type(byte_stream_t) :: stream
 
     if (pool%group < 0) return
     if (.not. keeps_tasks(journal)) return
-    call job%pack(number, bytes)
-    if (bytes%length > 0) call keep_task(journal, [pool%group, number], bytes)
+    call job%pass(number, stream)
+    if (stream%bytes%length > 0) call keep_task(journal, [pool%group, number], stream%bytes)
   end subroutine keep_done_task
 
   !> Takes the results of a task that another rank has done, and adds them to the journal. If it
@@ -94,18 +97,14 @@ contains
     class(job_t), intent(inout) :: job        !! that gets the results
     type(journal_t), intent(inout) :: journal !! of the run
     integer, intent(in) :: number             !! of the task
-    character(len=*), intent(in) :: results   !! packed; empty: the job has them
+    type(text_buffer_t), intent(in) :: results !! as bytes; empty: the job has them
 
-    type(text_buffer_t) :: bytes
+    type(byte_stream_t) :: stream
 
-    if (len(results) > 0) then
-      call job%unpack(number, results)
-      if (pool%group >= 0) then
-        if (keeps_tasks(journal)) then
-          call append_text(bytes, results)
-          call keep_task(journal, [pool%group, number], bytes)
-        end if
-      end if
+    if (results%length > 0) then
+      call stream%open(results%storage(:results%length))
+      call job%pass(number, stream)
+      if (pool%group >= 0) call keep_task(journal, [pool%group, number], results)
     end if
     call deliver_task(pool, job, number)
   end subroutine take_result

@@ -4,10 +4,10 @@
 !! as long as others are sound: their rows are failed ones. A deck is refused if its variants cannot
 !! be in one table, if memory does not suffice for one, and if none is sound.
 module variant_checks
-  use byte_streams, only: get_integers, put_integers
-  use card_bytes, only: get_token, put_token
+  use byte_streams, only: byte_stream_t
+  use card_bytes, only: pass_token
   use cards, only: card_t
-  use diagnostic_bytes, only: get_diagnostics, put_diagnostics
+  use diagnostic_bytes, only: pass_diagnostics
   use diagnostics, only: add_error, add_warning, append_warnings, count_warnings, diagnostic_t, &
     diagnostics_t, errors_of, has_errors, has_messages, has_other_errors, join_warnings
   use errors, only: error_of_memory, error_of_reach, error_of_writing, error_t, set_error
@@ -15,14 +15,13 @@ module variant_checks
   use kinds, only: wp
   use models, only: model_t
   use text, only: to_string
-  use text_buffer, only: text_buffer_t
   use tokens, only: token_t
   use variant_readings, only: check_variant, read_values, read_variant, run_limits_t
   use variants, only: deck_cards_t, variant_count, variant_text
   implicit none (type, external)
   private
 
-  public :: check_t, check_number, check_values, is_refused, first_error, put_check, get_check
+  public :: check_t, check_number, check_values, is_refused, first_error, pass_check
   public :: checks_t, find_leading, begin_checks, check_variants, join_check, refuses_deck, &
     conclude_checks
 
@@ -112,30 +111,16 @@ contains
     if (size(list) > 0) call set_error(error, list(1)%kind, list(1)%message)
   end subroutine first_error
 
-  !> Appends the check of a variant to a buffer as bytes.
-  pure subroutine put_check(buffer, check)
-    type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_check`
-    type(check_t), intent(in) :: check
+  !> Passes the check of a variant.
+  pure subroutine pass_check(stream, check)
+    type(byte_stream_t), intent(inout) :: stream
+    type(check_t), intent(inout) :: check !! new if it is read
 
-    call put_integers(buffer, [check%modes, check%effects])
-    call put_token(buffer, check%modes_word)
-    call put_diagnostics(buffer, check%diagnostics)
-  end subroutine put_check
-
-  !> Reads what `put_check` wrote.
-  pure subroutine get_check(bytes, at, check)
-    character(len=*), intent(in) :: bytes !! of `put_check`, among others
-    integer, intent(inout) :: at          !! place of the first byte; on return, after the last
-    type(check_t), intent(out) :: check
-
-    integer :: numbers(2)
-
-    call get_integers(bytes, at, numbers)
-    check%modes = numbers(1)
-    check%effects = numbers(2)
-    call get_token(bytes, at, check%modes_word)
-    call get_diagnostics(bytes, at, check%diagnostics)
-  end subroutine get_check
+    call stream%pass(check%modes)
+    call stream%pass(check%effects)
+    call pass_token(stream, check%modes_word)
+    call pass_diagnostics(stream, check%diagnostics)
+  end subroutine pass_check
 
   !> Looks for the variant that leads: heads of tables and texts are its. Variants are checked from
   !! the first one on, until one is sound.

@@ -1,29 +1,26 @@
 !> What a computed variant leaves: the rows of its tables, its findings and its totals. The journal
 !! of a run keeps them as bytes.
 module variant_rows
-  use byte_streams, only: get_integers, get_logicals, get_reals, get_string, put_integers, &
-    put_logicals, put_reals, put_string
+  use byte_streams, only: byte_stream_t
   use errors, only: error_t
   use kinds, only: wp
   use report_rows, only: find_rows
   use report_types, only: any_table_t, plan_table, table_plan_t
-  use run_findings, only: add_failure, failure_t, findings_t, get_findings, &
-    put_findings
-  use run_totals, only: get_totals, put_totals, run_totals_t
+  use run_findings, only: add_failure, failure_t, findings_t, pass_findings
+  use run_totals, only: pass_totals, run_totals_t
   use table_columns, only: header_columns
-  use table_rows, only: add_failed_row, get_rows, put_rows, rows_t
+  use table_rows, only: add_failed_row, pass_rows, rows_t
   use tables, only: column_t
   use text, only: string_t
-  use text_buffer, only: text_buffer_t
-  use variant_checks, only: check_t, get_check, put_check
+  use variant_checks, only: check_t, pass_check
   use variant_findings, only: find_failures, find_warnings, totals_of
   use variant_log, only: log_of_variant
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
-  public :: variant_rows_t, table_part_t, find_variant_rows, fail_variant, put_variant_rows, &
-    get_variant_rows
+  public :: variant_rows_t, table_part_t, find_variant_rows, fail_variant, &
+    pass_variant_rows
 
   !> The part of a table that belongs to a variant.
   type :: table_part_t
@@ -112,102 +109,52 @@ contains
     call add_failure(rows%findings, failure)
   end subroutine fail_variant
 
-  !> Appends rows, findings and totals to a buffer as bytes.
-  pure subroutine put_variant_rows(buffer, rows)
-    type(text_buffer_t), intent(inout) :: buffer !! bytes, to be read by `get_variant_rows`
-    type(variant_rows_t), intent(in) :: rows     !! of a variant
+  !> Passes rows, findings and totals of a variant.
+  pure subroutine pass_variant_rows(stream, rows)
+    type(byte_stream_t), intent(inout) :: stream
+    type(variant_rows_t), intent(inout) :: rows !! new if they are read
 
-    integer :: i, k
+    integer :: count, i, k
 
-    call put_integers(buffer, [size(rows%varied), size(rows%tables)])
-    call put_reals(buffer, rows%varied)
+    if (.not. stream%reads) count = size(rows%tables)
+    call stream%pass(count)
+    if (stream%reads) allocate (rows%tables(count))
     do k = 1, size(rows%tables)
       associate (table => rows%tables(k))
-        call put_integers(buffer, [size(table%notes)])
-        do i = 1, size(table%notes)
-          call put_string(buffer, table%notes(i)%text)
+        if (.not. stream%reads) count = size(table%notes)
+        call stream%pass(count)
+        if (stream%reads) allocate (table%notes(count))
+        do i = 1, count
+          call stream%pass_text(table%notes(i)%text)
         end do
-        call put_columns(buffer, table%columns)
-        call put_rows(buffer, table%rows)
+        call pass_columns(stream, table%columns)
+        call pass_rows(stream, table%rows)
       end associate
     end do
-    call put_check(buffer, rows%check)
-    call put_findings(buffer, rows%findings)
-    call put_totals(buffer, rows%totals)
-    call put_logicals(buffer, [rows%has_failed, allocated(rows%log)])
-    if (.not. allocated(rows%log)) return
-    call put_string(buffer, rows%log)
-    call put_integers(buffer, [rows%method])
-  end subroutine put_variant_rows
+    call stream%pass_allocatable(rows%varied)
+    call pass_check(stream, rows%check)
+    call pass_findings(stream, rows%findings)
+    call pass_totals(stream, rows%totals)
+    call stream%pass(rows%has_failed)
+    call stream%pass_text(rows%log)
+    call stream%pass(rows%method)
+  end subroutine pass_variant_rows
 
-  pure subroutine put_columns(buffer, columns)
-    type(text_buffer_t), intent(inout) :: buffer
-    type(column_t), allocatable, intent(in) :: columns(:) !! may be unallocated
+  pure subroutine pass_columns(stream, columns)
+    type(byte_stream_t), intent(inout) :: stream
+    type(column_t), allocatable, intent(inout) :: columns(:) !! may be unallocated
 
-    integer :: i
+    integer :: count, i
 
-    call put_logicals(buffer, [allocated(columns)])
-    if (.not. allocated(columns)) return
-    call put_integers(buffer, [size(columns)])
-    do i = 1, size(columns)
-      call put_string(buffer, columns(i)%name)
-      call put_string(buffer, columns(i)%unit)
-      call put_integers(buffer, [columns(i)%width])
+    count = -1
+    if (allocated(columns)) count = size(columns)
+    call stream%pass(count)
+    if (stream%reads .and. count >= 0) allocate (columns(count))
+    do i = 1, count
+      call stream%pass_text(columns(i)%name)
+      call stream%pass_text(columns(i)%unit)
+      call stream%pass(columns(i)%width)
     end do
-  end subroutine put_columns
-
-  !> Reads what `put_variant_rows` wrote.
-  pure subroutine get_variant_rows(bytes, at, rows)
-    character(len=*), intent(in) :: bytes     !! of `put_variant_rows`, among others
-    integer, intent(inout) :: at              !! place of the first byte; on return, after the last
-    type(variant_rows_t), intent(out) :: rows !! of a variant
-
-    integer :: counts(2), notes(1), method(1), i, k
-    logical :: marks(2)
-
-    call get_integers(bytes, at, counts)
-    allocate (rows%varied(counts(1)), rows%tables(counts(2)))
-    call get_reals(bytes, at, rows%varied)
-    do k = 1, size(rows%tables)
-      associate (table => rows%tables(k))
-        call get_integers(bytes, at, notes)
-        allocate (table%notes(notes(1)))
-        do i = 1, size(table%notes)
-          call get_string(bytes, at, table%notes(i)%text)
-        end do
-        call get_columns(bytes, at, table%columns)
-        call get_rows(bytes, at, table%rows)
-      end associate
-    end do
-    call get_check(bytes, at, rows%check)
-    call get_findings(bytes, at, rows%findings)
-    call get_totals(bytes, at, rows%totals)
-    call get_logicals(bytes, at, marks)
-    rows%has_failed = marks(1)
-    if (.not. marks(2)) return
-    call get_string(bytes, at, rows%log)
-    call get_integers(bytes, at, method)
-    rows%method = method(1)
-  end subroutine get_variant_rows
-
-  pure subroutine get_columns(bytes, at, columns)
-    character(len=*), intent(in) :: bytes
-    integer, intent(inout) :: at
-    type(column_t), allocatable, intent(out) :: columns(:)
-
-    integer :: numbers(1), i
-    logical :: are_there(1)
-
-    call get_logicals(bytes, at, are_there)
-    if (.not. are_there(1)) return
-    call get_integers(bytes, at, numbers)
-    allocate (columns(numbers(1)))
-    do i = 1, size(columns)
-      call get_string(bytes, at, columns(i)%name)
-      call get_string(bytes, at, columns(i)%unit)
-      call get_integers(bytes, at, numbers)
-      columns(i)%width = numbers(1)
-    end do
-  end subroutine get_columns
+  end subroutine pass_columns
 
 end module variant_rows

@@ -1,8 +1,8 @@
 !> The variants of a deck as tasks. Each task computes a variant and leaves its rows, its findings
 !! and its totals.
 module variant_tasks
-  use byte_streams, only: get_integers, put_integers, put_string
-  use deck_bytes, only: get_deck, put_deck
+  use byte_streams, only: byte_stream_t
+  use deck_bytes, only: pass_deck
   use deck_outputs, only: forget_waiting, outputs_t, write_found_rows
   use deck_readings, only: deck_t
   use errors, only: error_of_input, error_of_numerics, error_t, set_error
@@ -24,11 +24,9 @@ module variant_tasks
   use task_journal, only: journal_t
   use tasks, only: run_tasks
   use text, only: string_t
-  use text_buffer, only: text_buffer_t
   use variant_checks, only: begin_checks, check_t, check_number, checks_t, first_error, &
     is_refused, join_check, refuses_deck
-  use variant_rows, only: fail_variant, find_variant_rows, get_variant_rows, put_variant_rows, &
-    variant_rows_t
+  use variant_rows, only: fail_variant, find_variant_rows, pass_variant_rows, variant_rows_t
   use variant_runs, only: begin_variant_run, compute_variant, variant_run_t
   use variants, only: variant_count, variant_text, variant_values
   implicit none (type, external)
@@ -60,8 +58,7 @@ module variant_tasks
     type(variant_rows_t), private :: head                   !! what it brings for heads of tables
   contains
     procedure :: run => run_variant
-    procedure :: pack => pack_variant
-    procedure :: unpack => unpack_variant
+    procedure :: pass => pass_variant
     procedure :: finish => finish_variant
   end type variant_job_t
 
@@ -86,7 +83,8 @@ contains
     integer, intent(in) :: threads                   !! that compute one together
     type(journal_t), intent(inout) :: journal        !! of the run
 
-    type(text_buffer_t) :: bytes
+    type(byte_stream_t) :: stream
+    type(string_t) :: no_settings(0)
     type(findings_t) :: no_findings
     type(run_totals_t) :: no_totals
     integer :: room, count, variants, first, last
@@ -96,15 +94,15 @@ contains
     room = max(min(count*room, most_of_all), 2*count)
     call begin_variant_job(job, room, at_a_time, threads)
     if (rank_count() > 1) then
-      call put_string(bytes, variants_announced)
-      call put_deck(bytes, job%deck)
-      call put_integers(bytes, [room, threads])
-      job%announcement = bytes%storage(:bytes%length)
+      call stream%add_text(variants_announced)
+      call pass_deck(stream, job%deck, no_settings)
+      call stream%add(room)
+      call stream%add(threads)
+      job%announcement = stream%bytes%storage(:stream%bytes%length)
     end if
     variants = variant_count(job%deck%cards)
     first = first_variant(job%part, variants)
     last = last_variant(job%part, variants)
-    job%checks = begin_checks(job%deck%model, job%deck%diagnostics, last - first + 1)
     call run_tasks(job, first, last, at_a_time, journal, group_of_variants, room)
     if (job%headless == 0) return
     ! The variant that was to lead has failed, and the next one that has not came without what the
@@ -112,7 +110,7 @@ contains
     call compute(job, job%headless, .true., job%stores(1), job%head)
     if (was_interrupted()) return
     deallocate (job%error)
-    job%checks = begin_checks(job%deck%model, job%deck%diagnostics, last - first + 1)
+    call begin_checks_of(job)
     job%findings = no_findings
     job%totals = no_totals
     call forget_waiting(job%outputs)
@@ -120,9 +118,8 @@ contains
   end subroutine run_variant_tasks
 
   !> Helps the leader with the variants that it has announced.
-  subroutine help_with_variants(bytes, at, settings, at_a_time)
-    character(len=*), intent(in) :: bytes     !! that announce them
-    integer, intent(inout) :: at              !! place of the first byte; on return, after the last
+  subroutine help_with_variants(stream, settings, at_a_time)
+    type(byte_stream_t), intent(inout) :: stream !! that announces them
     type(string_t), intent(in) :: settings(:) !! of the command line
     integer, intent(in) :: at_a_time          !! variants to compute at a time
 
@@ -130,8 +127,8 @@ contains
     type(deck_t), target :: deck
     integer :: numbers(2)
 
-    call get_deck(bytes, at, settings, deck)
-    call get_integers(bytes, at, numbers)
+    call pass_deck(stream, deck, settings)
+    call stream%pass(numbers)
     job%deck => deck
     call begin_variant_job(job, numbers(1), at_a_time, numbers(2))
     call help_with_tasks(job, at_a_time)
@@ -145,10 +142,21 @@ contains
     integer, intent(in) :: threads            !! that compute one together
 
     job%threads = threads
+    call begin_checks_of(job)
     call tables_of(job%deck%model, job%kinds)
     ! One thread more may serve other ranks.
     allocate (job%stores(at_a_time + 1), job%rows(0:room - 1))
   end subroutine begin_variant_job
+
+  !> Begins the checks of the variants of a part, or of all.
+  subroutine begin_checks_of(job)
+    type(variant_job_t), intent(inout) :: job !! with its deck
+
+    associate (variants => variant_count(job%deck%cards))
+      job%checks = begin_checks(job%deck%model, job%deck%diagnostics, &
+        last_variant(job%part, variants) - first_variant(job%part, variants) + 1)
+    end associate
+  end subroutine begin_checks_of
 
   !> Place of a variant in the ring.
   pure integer function place_of(job, number)
@@ -213,26 +221,19 @@ contains
     rows%totals%writing = writing
   end subroutine compute
 
-  !> Appends the rows of a variant as bytes.
-  subroutine pack_variant(self, number, bytes)
-    class(variant_job_t), intent(in) :: self
-    integer, intent(in) :: number !! of the variant
-    type(text_buffer_t), intent(inout) :: bytes
-
-    call put_variant_rows(bytes, self%rows(place_of(self, number)))
-  end subroutine pack_variant
-
-  !> Reads what `pack_variant` wrote.
-  subroutine unpack_variant(self, number, bytes)
+  !> Passes the rows of a variant.
+  subroutine pass_variant(self, number, stream)
     class(variant_job_t), intent(inout) :: self
     integer, intent(in) :: number !! of the variant
-    character(len=*), intent(in) :: bytes
+    type(byte_stream_t), intent(inout) :: stream
 
-    integer :: at
+    type(variant_rows_t) :: rows
 
-    at = 1
-    call get_variant_rows(bytes, at, self%rows(place_of(self, number)))
-  end subroutine unpack_variant
+    associate (mine => self%rows(place_of(self, number)))
+      if (stream%reads) mine = rows
+      call pass_variant_rows(stream, mine)
+    end associate
+  end subroutine pass_variant
 
   !> Writes the rows of a variant and adds its findings and totals to those of all.
   subroutine finish_variant(self, number)

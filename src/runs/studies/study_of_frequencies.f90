@@ -1,5 +1,6 @@
 !> Frequencies at every position and speed, in blocks of positions that are tasks of a job.
 module study_of_frequencies
+  use byte_streams, only: byte_stream_t
   use errors, only: error_t
   use frequency_memory, only: add_frequency_memory
   use frequency_study, only: begin_sweep, block_count, block_of, finish_sweep, missed_states, &
@@ -12,7 +13,8 @@ module study_of_frequencies
   use mode_requests, only: drawn_states, mode_request_of
   use models, only: model_t, speed_in_words
   use named_parts, only: name_outcomes
-  use position_results, only: error_of_divergence, error_of_orders, error_of_position, frequency_of
+  use position_results, only: error_of_divergence, error_of_orders, error_of_position, &
+    frequency_of, position_result_t
   use positions, only: by_crank_angle, positions_t
   use progress, only: show_progress
   use rank_tasks, only: help_with_tasks
@@ -21,11 +23,10 @@ module study_of_frequencies
   use study_findings, only: judge_deflection, most_deflection, note_failure_here, note_warning, &
     unit_of_positions
   use study_types, only: add_study, study_t, variant_run_t
-  use sweep_bytes, only: get_result, put_result
+  use sweep_bytes, only: pass_result
   use sweeps, only: has_result, sweep_t
   use tasks, only: run_tasks
   use text, only: plural, to_string
-  use text_buffer, only: text_buffer_t
   use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
   use vibration_models, only: by_band, by_orders, mode_request_t, new_vibration_models, &
@@ -50,8 +51,7 @@ module study_of_frequencies
     integer :: solved = 0                             !! states
   contains
     procedure :: run => run_block
-    procedure :: pack => pack_block
-    procedure :: unpack => unpack_block
+    procedure :: pass => pass_block
     procedure :: finish => finish_block
   end type sweep_job_t
 
@@ -162,35 +162,24 @@ contains
       self%models, block_of(self%states, number), self%variant%results%found%sweep)
   end subroutine run_block
 
-  !> The results of a block.
-  subroutine pack_block(self, number, bytes)
-    class(sweep_job_t), intent(in) :: self
+  !> Passes the results of a block.
+  subroutine pass_block(self, number, stream)
+    class(sweep_job_t), intent(inout) :: self
     integer, intent(in) :: number
-    type(text_buffer_t), intent(inout) :: bytes
+    type(byte_stream_t), intent(inout) :: stream
 
+    type(position_result_t) :: none
     integer, allocatable :: block(:)
     integer :: i
 
     block = block_of(self%states, number)
     do i = 1, size(block)
-      call put_result(bytes, self%variant%results%found%sweep%results(block(i)))
+      associate (result => self%variant%results%found%sweep%results(block(i)))
+        if (stream%reads) result = none
+        call pass_result(stream, result)
+      end associate
     end do
-  end subroutine pack_block
-
-  subroutine unpack_block(self, number, bytes)
-    class(sweep_job_t), intent(inout) :: self
-    integer, intent(in) :: number
-    character(len=*), intent(in) :: bytes
-
-    integer, allocatable :: block(:)
-    integer :: i, at
-
-    block = block_of(self%states, number)
-    at = 1
-    do i = 1, size(block)
-      call get_result(bytes, at, self%variant%results%found%sweep%results(block(i)))
-    end do
-  end subroutine unpack_block
+  end subroutine pass_block
 
   !> Counts the states of a block and shows the progress.
   subroutine finish_block(self, number)
