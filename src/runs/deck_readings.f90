@@ -94,7 +94,7 @@ contains
       call read_variant(deck%cards, 1, cards, deck%diagnostics, deck%model)
       call check_variant(deck%model, deck%limits, deck%diagnostics)
       if (.not. has_errors(deck%diagnostics)) deck%model%echo = echo_cards(deck%cards, cards, &
-        deck%model%effects, reports(), deck%source)
+        deck%model%effects, deck%source)
     end if
     deck%errors = render_errors(deck%diagnostics, deck%source)
     ! What variants are warned of is told when all are known.
@@ -116,7 +116,7 @@ contains
     call find_leading(deck%cards, deck%limits, deck%diagnostics, deck%leading)
     if (has_errors(deck%diagnostics) .or. was_interrupted()) return
     call read_variant(deck%cards, deck%leading, cards, none, deck%model)
-    deck%model%echo = echo_cards(deck%cards, cards, deck%model%effects, reports(), deck%source)
+    deck%model%echo = echo_cards(deck%cards, cards, deck%model%effects, deck%source)
     if (.not. is_true(checks)) return
     first = 1
     last = variant_count(deck%cards)

@@ -8,7 +8,6 @@ module variant_readings
   use memory_needs, only: check_memory
   use model_reader, only: read_model
   use models, only: model_t
-  use report_table, only: reports
   use variants, only: deck_cards_t, take_values, take_variant, text_of_values, variant_values
   implicit none (type, external)
   private
@@ -58,7 +57,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(out) :: model
 
-    call read_model(cards, reports(), diagnostics, model)
+    call read_model(cards, deck_cards%reports, diagnostics, model)
     if (has_errors(diagnostics)) return
     model%variant = text_of_values(deck_cards, values)
     model%varied = values

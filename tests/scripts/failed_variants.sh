@@ -144,6 +144,22 @@ resumed() {
 }
 check "a killed run with variants that fail is resumed" resumed
 
+# no_growth NAME STATUS: 5,700 variants more of the decks NAME300 and NAME6000; with 350 bytes of each they would take 2 MB.
+no_growth() {
+  python3 -B - "$program" "$scratch" "$@" <<'END_OF_PYTHON'
+import os, subprocess, sys
+program, scratch, name, expected = sys.argv[1:]
+peaks = []
+for count in 300, 6000:
+    child = subprocess.Popen([program, "--quiet", "--out", os.path.join(scratch, "out"), os.path.join(scratch, f"{name}{count}.deck")],
+                             stderr=subprocess.DEVNULL)
+    _, status, usage = os.wait4(child.pid, 0)
+    assert os.waitstatus_to_exitcode(status) == int(expected)
+    peaks.append(usage.ru_maxrss)
+assert peaks[1] - peaks[0] < 2000, f"memory of 300 and 6000 variants: {peaks} kB"
+END_OF_PYTHON
+}
+
 # Failures are kept up to a thousand, and memory does not grow with them.
 many_fail() {
   for count in 300 6000; do
@@ -151,9 +167,9 @@ many_fail() {
     echo "VARY b -$count to 300 step 1" >>"$scratch/many$count.deck"
   done
   run 1 --json --out "$out" "$scratch/many6000.deck" && says "5981 more failures; run.log lists the first 1000, the tables mark all" || return 1
-  python3 -B - "$program" "$scratch" <<'END_OF_PYTHON'
-import json, os, subprocess, sys
-program, scratch = sys.argv[1:]
+  python3 -B - "$scratch" <<'END_OF_PYTHON' || return 1
+import json, os, sys
+scratch, = sys.argv[1:]
 folder = os.path.join(scratch, "out", "many6000")
 with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
     summary = json.load(file)
@@ -167,15 +183,16 @@ with open(os.path.join(folder, "run.log"), encoding="utf-8") as file:
 assert log.endswith(f"… and {failures - 1000} more: they are marked in the tables\n"), log[-200:]
 with open(os.path.join(folder, "linkage.dat"), encoding="utf-8") as file:
     assert sum(line.startswith("# failed ") for line in file) == failures
-peaks = []
-for count in 300, 6000:
-    child = subprocess.Popen([program, "--quiet", "--out", os.path.join(scratch, "out"), os.path.join(scratch, f"many{count}.deck")],
-                             stderr=subprocess.DEVNULL)
-    _, status, usage = os.wait4(child.pid, 0)
-    assert os.waitstatus_to_exitcode(status) == 1
-    peaks.append(usage.ru_maxrss)
-# 5,700 failures of 700 bytes would be 4 MB.
-assert peaks[1] - peaks[0] < 2000, f"memory of 300 and 6000 variants that fail: {peaks} kB"
 END_OF_PYTHON
+  no_growth many 1
 }
-check "memory does not grow with failures" many_fail
+check "failures beyond the first thousand are counted" many_fail
+
+many_sound() {
+  for count in 300 6000; do
+    motion_deck 0 90 | sed 's/length=279.4/length=$b/; s/REPORT.*/REPORT kinematics/' >"$scratch/sound$count.deck"
+    echo "VARY b 270 to 27$((count/1000)).$((count/100%10)) step 0.001" >>"$scratch/sound$count.deck"
+  done
+  no_growth sound 0
+}
+check "memory does not grow with variants" many_sound

@@ -21,6 +21,7 @@ module variants
   !> All cards of a deck, and the values of its `$name`s.
   type :: deck_cards_t
     type(card_t), allocatable :: written(:)         !! (cards) as they stand in the files
+    type(report_kind_t), allocatable :: reports(:)  !! the table of reports
     type(settings_t) :: settings                    !! of SET, VARY and `--set`
     type(variation_t), allocatable :: variations(:) !! (variations) in the order of the deck; the
                                                     !! last one varies fastest
@@ -46,20 +47,20 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics    !! errors and warnings are added
     type(deck_cards_t), intent(out) :: deck              !! complete if there are no errors
 
+    deck%reports = reports
     call move_alloc(cards, deck%written)
     allocate (deck%variations(0), deck%slots(0), deck%source_of(0))
     call read_settings(deck%written, options, source, diagnostics, deck%settings)
     deck%fixed = deck%written
     call substitute(deck%fixed, deck%settings, diagnostics, deck%slots)
     call warn_of_unused_settings(deck%settings, diagnostics)
-    call read_variations(deck, reports, diagnostics)
+    call read_variations(deck, diagnostics)
   end subroutine read_deck_cards
 
   !> Reads the VARY cards that the command line does not override, and links them to the slots for
   !! their values.
-  pure subroutine read_variations(deck, reports, diagnostics)
+  pure subroutine read_variations(deck, diagnostics)
     type(deck_cards_t), intent(inout) :: deck
-    type(report_kind_t), intent(in) :: reports(:)
     type(diagnostics_t), intent(inout) :: diagnostics
 
     type(variation_t), allocatable :: list(:)
@@ -77,7 +78,7 @@ contains
       associate (setting => deck%settings%list(i))
         if (.not. setting%is_varied .or. size(deck%fixed(setting%card)%words) < 2) cycle
         count = count + 1
-        call read_variation(deck%fixed(setting%card), i, deck%fixed, reports, diagnostics, &
+        call read_variation(deck%fixed(setting%card), i, deck%fixed, deck%reports, diagnostics, &
           list(count))
         if (.not. any(deck%slots%setting == i) .and. all_found) then
           call add_error(diagnostics, setting%name, "no card uses '$"//setting%name%text// &

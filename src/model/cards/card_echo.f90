@@ -27,21 +27,20 @@ contains
 
   !> The cards in the order of the deck. A `$name` stays as it is, with its SET or VARY card; a
   !! value from the command line becomes a SET card, so that the echo is complete in itself.
-  pure function echo_cards(deck, cards, loads, reports, source) result(lines)
+  pure function echo_cards(deck, cards, loads, source) result(lines)
     type(deck_cards_t), intent(in) :: deck        !! cards as written, and the values of their
                                                   !! `$name`s
     type(card_t), intent(in) :: cards(:)          !! (cards) of one variant, with values in place of
                                                   !! the `$name`s
     integer, intent(in) :: loads                  !! effects_static or effects_axial: the meaning of
                                                   !! EFFECTS, whether the deck gives it or not
-    type(report_kind_t), intent(in) :: reports(:) !! (kinds) all that exist
     type(source_t), intent(in) :: source          !! of the cards
     type(echo_line_t) :: lines(size(cards))
 
     integer :: i
 
     do i = 1, size(cards)
-      lines(i) = echo_card(deck%written(i), cards(i), reports, source)
+      lines(i) = echo_card(deck%written(i), cards(i), deck%reports, source)
       if (same_word(cards(i)%keyword%text, "EFFECTS") .and. .not. is_response_form(cards(i))) &
         call complete_effects(cards(i), loads, lines(i))
     end do

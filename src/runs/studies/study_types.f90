@@ -117,7 +117,17 @@ contains
     character(len=*), intent(in) :: what         !! name of the part, in the plural
     real(wp), intent(in) :: bytes
 
-    needs%list = [needs%list, memory_need_t(bytes, what, place)]
+    type(memory_need_t), allocatable :: longer(:)
+    integer :: count
+
+    ! A constructor with the new one leaks its text (gfortran 12).
+    count = size(needs%list)
+    allocate (longer(count + 1))
+    longer(:count) = needs%list
+    longer(count + 1)%bytes = bytes
+    longer(count + 1)%what = what
+    longer(count + 1)%place = place
+    call move_alloc(longer, needs%list)
   end subroutine add_need
 
 end module study_types
