@@ -9,21 +9,18 @@
 !! along h_k, and b the accelerations with the present rates and no ü.
 module linkage_rates
   use adaptive_integration, only: rate_system_t
-  use applied_loads, only: add_conservative_loads, add_moving_loads, add_prescribed_loads, &
-    generalised_force
   use block_ends, only: refuse_leaving_block
   use constants, only: degree, two_pi
   use dense_factor, only: dense_factor_t, factorize, solve
   use drives, only: drive_t, refuse_speed
   use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
-  use free_friction, only: find_free_friction
-  use gears, only: driven_by, driven_t, gear_share, gear_t, reflected_inertia
+  use gears, only: driven_by, gear_share, gear_t, reflected_inertia
   use group_equations, only: drive_rate
-  use inertia_loads, only: load_t
-  use joint_friction, only: friction_t, has_friction, is_solved
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, find_velocities, &
     kinematic_coefficients_t
+  use linkage_instants, only: add_accelerations, add_loads, find_inertia, linkage_instant_t, &
+    make_room
   use linkages, only: drive_of_angle, linkage_t
   use load_tables, only: refuse_beyond_tables
   use loop_curves, only: curve_point_t, find_point, loop_curve_t
@@ -32,12 +29,12 @@ module linkage_rates
   use motion_switches, only: has_switches, switches_at
   use pose_types, only: pose_t
   use poses, only: dead_point_sine, place_groups, place_links
-  use rigid_bodies, only: central_inertia, mass_centre, rigid_body_t
+  use rigid_bodies, only: rigid_body_t
   use whole_systems, only: drive_acceleration, drive_position, drive_row, rate_along, whole_system_t
   implicit none (type, external)
   private
 
-  public :: moving_linkage_t, linkage_instant_t, find_instant, free_drives, find_state, &
+  public :: moving_linkage_t, find_instant, free_drives, find_state, &
     place_by_drives, find_rates_of_coordinates, all_inertia_of, least_inertia_of, &
     inertia_share, rate_of_drive
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
@@ -62,27 +59,6 @@ module linkage_rates
 
   !> There are no rates where the scaled determinant of M is below this.
   real(wp), parameter :: least_inertia = 1.0e-13_wp
-
-  !> A linkage at an instant of its motion.
-  type :: linkage_instant_t
-    type(pose_t) :: pose                         !! pins from `reference_point`
-    type(kinematic_coefficients_t), allocatable :: per(:) !! (coordinates) velocities per rate
-    type(kinematic_coefficients_t) :: motion     !! velocities, and accelerations
-    real(wp), allocatable :: acceleration(:)     !! (coordinates) ü
-    type(driven_t) :: driven                     !! motor and gear
-    real(wp) :: load_power = 0.0_wp              !! of all loads without a potential [W]
-    real(wp) :: power = 0.0_wp                   !! of these and of the drive, less what the gear
-                                                 !! takes [W]
-    type(load_t), allocatable :: body_load(:)    !! (bodies) of all loads, but for weights, constant
-                                                 !! forces on pins and constant torques
-    real(wp), allocatable :: pin_load(:, :)      !! (2, pins) likewise [N]
-    real(wp), allocatable :: friction(:)         !! (frictions) efforts [N m] or [N]; not allocated
-                                                 !! where nothing rubs
-    ! Equations, kept as room for the next instant:
-    real(wp), allocatable, private :: inertia(:, :), with_rotor(:, :) !! (coordinates, coordinates)
-    real(wp), allocatable, private :: right(:), driving(:), loading(:), first_rate(:), &
-      all_right(:)
-  end type linkage_instant_t
 
   !> A linkage in motion. Its state: coordinates of the free drives [rad] or [m], or of the chart
   !! [m], their rates, the work done so far by the drive and all loads without a potential [J]. That
@@ -351,11 +327,6 @@ contains
   end function switches_of_motion
 
   !> The motion at a state: ü, motor, gear and loads.
-  !!
-  !! The torque through the gear depends on ü, and the losses in the gear on its sign. With either
-  !! losses it has the same sign, so that a second trial at most finds those that there are: of M, Q
-  !! and the motor's torque Tm per coordinate of the driven body it is that of `M Tm − J n Q`.
-  !! Friction in joints may disturb this; then the losses of the second trial count.
   subroutine find_instant(self, time, state, instant, found)
     class(moving_linkage_t), intent(inout) :: self
     real(wp), intent(in) :: time      !! [s]
@@ -363,13 +334,35 @@ contains
     type(linkage_instant_t), intent(inout) :: instant !! new, or another one of this motion
     logical, intent(out) :: found     !! as of `rates_of_motion`
 
-    type(error_t), allocatable :: left
-    type(dense_factor_t) :: factor
-    real(wp) :: torque, rate, bent, share, reflected, through, motor
-    logical :: is_crossing
-    integer :: f, k, trial
+    real(wp) :: torque
 
-    f = size(self%free)
+    call move_to_state(self, state, instant, found)
+    if (.not. found) return
+    call make_room(instant, size(self%free), size(self%rigid))
+    call find_first_drive(self, time, state, instant, found)
+    if (.not. found) return
+    call find_inertia(self%whole%linkage, self%rigid, instant%pose, instant%motion, instant%per, &
+      instant%inertia, instant%right)
+    call find_accelerations(self, instant, torque, found)
+    if (.not. found) return
+    associate (rates => state(size(state) - size(self%free):size(state) - 1))
+      instant%driving = instant%driving - (torque - instant%driven%torque)*instant%first%per
+      instant%load_power = dot_product(instant%loading, rates)
+      instant%power = dot_product(instant%driving, rates) + instant%driven%to_rotor
+    end associate
+    call add_accelerations(instant)
+  end subroutine find_instant
+
+  !> Pose and velocities of a state; `stop` says why there are none.
+  subroutine move_to_state(self, state, instant, found)
+    class(moving_linkage_t), intent(inout) :: self
+    real(wp), intent(in) :: state(:)
+    type(linkage_instant_t), intent(inout) :: instant
+    logical, intent(out) :: found
+
+    type(error_t), allocatable :: left
+    logical :: is_crossing
+
     found = maxval(abs(state)) < most_rate
     if (allocated(self%loop)) found = found .and. maxval(abs(state(1:3))) < most_angle
     if (.not. found) then
@@ -378,177 +371,126 @@ contains
     end if
     call find_state(self, state, instant%pose, instant%per, instant%motion, found, left, &
       is_crossing)
-    if (.not. allocated(instant%right)) allocate (instant%right(f), instant%driving(f), &
-      instant%loading(f), instant%first_rate(f), instant%all_right(f), instant%inertia(f, f), &
-      instant%with_rotor(f, f), instant%acceleration(f))
-    associate (pose => instant%pose, now => instant%motion, right => instant%right, &
-        driving => instant%driving, loading => instant%loading, driven => instant%first_rate, &
-        all_right => instant%all_right, inertia => instant%inertia, &
-        with_rotor => instant%with_rotor)
-      if (.not. found) then
-        self%stop = merge(stop_at_end, stop_steps, allocated(left))
-        if (is_crossing) self%stop = stop_change_point
-        if (allocated(left)) call move_alloc(left, self%left)
-        return
-      end if
-      ! Rate of the first drive, per rate of each coordinate, and its acceleration without ü.
-      if (self%by_drives) then
-        rate = state(f + 1)
-        driven = 0.0_wp
-        driven(1) = 1.0_wp
-        bent = 0.0_wp
-      else if (allocated(self%loop)) then
-        rate = now%turn(1)
-        driven = instant%per(1)%turn(1)
-        bent = now%turn_slope(1)
-      else
-        rate = rate_of_drive(self, pose, now, 1)
-        driven = [(rate_of_drive(self, pose, instant%per(k), 1), k=1, f)]
-        bent = drive_acceleration(self%whole, pose, 1, now)
-      end if
-      call refuse_speed(self%drive, self%gear%ratio*rate, left)
-      found = .not. allocated(left)
-      if (.not. found) then
-        self%stop = stop_at_end
-        call move_alloc(left, self%left)
-        return
-      end if
-      if (self%by_drives) then
-        motor = self%drive%torque(time, self%gear%ratio*state(1), self%gear%ratio*rate)
-      else
-        motor = self%drive%torque(time, self%gear%ratio*coordinate_of(self, pose), &
-          self%gear%ratio*rate)
-      end if
-      call sum_up(self, pose, now, instant%per, inertia, right)
-      through = motor
-      do trial = 1, 2
-        share = gear_share(self%gear, rate, through)
-        reflected = reflected_inertia(self%gear, share)
-        do k = 1, f
-          with_rotor(:, k) = inertia(:, k) + reflected*driven(k)*driven
-        end do
-        if (allocated(self%loop)) then
-          found = with_rotor(1, 1) > least_inertia*self%all_inertia
-        else
-          call factorize(with_rotor, factor)
-          found = abs(factor%determinant) > least_inertia
-        end if
-        if (.not. found) then
-          self%stop = stop_no_inertia
-          return
-        end if
-        torque = self%gear%ratio*share*motor
-        driving = torque*driven
-        loading = 0.0_wp
-        all_right = right
-        if (self%has_loads) then
-          call add_loads(self, torque, reflected, instant, all_right, driving, loading, found)
-          if (.not. found) then
-            self%stop = stop_locked
-            return
-          end if
-        else if (.not. allocated(instant%pin_load)) then
-          allocate (instant%body_load(size(self%rigid)))
-          instant%pin_load = 0.0_wp*pose%pin
-        end if
-        all_right = all_right + driving - (reflected*bent)*driven
-        if (allocated(self%loop)) then
-          instant%acceleration(1) = all_right(1)/with_rotor(1, 1)
-        else
-          instant%acceleration = solve(factor, all_right)
-        end if
-        instant%driven = driven_by(self%gear, motor, share, rate, bent + dot_product(driven, &
-          instant%acceleration))
-        if (self%gear%efficiency >= 1.0_wp) exit
-        if (through >= 0.0_wp .eqv. instant%driven%through >= 0.0_wp) exit
-        through = instant%driven%through
-      end do
-      driving = driving - (torque - instant%driven%torque)*driven
-      associate (rates => state(size(state) - f:size(state) - 1))
-        instant%load_power = dot_product(loading, rates)
-        instant%power = dot_product(driving, rates) + instant%driven%to_rotor
-      end associate
-    end associate
-    do k = 1, f
-      instant%motion%turn_slope = instant%motion%turn_slope + instant%acceleration(k)* &
-        instant%per(k)%turn
-      instant%motion%pin_slope = instant%motion%pin_slope + instant%acceleration(k)* &
-        instant%per(k)%pin
-    end do
-  end subroutine find_instant
+    if (found) return
+    self%stop = merge(stop_at_end, stop_steps, allocated(left))
+    if (is_crossing) self%stop = stop_change_point
+    if (allocated(left)) call move_alloc(left, self%left)
+  end subroutine move_to_state
 
-  !> Adds the generalised forces of springs, dampers, processes and friction: those with a potential
-  !! to the first sum, all others, with constant torques, to the second and the third; the instant
-  !! gets the loads themselves. Not found where joints lock.
-  pure subroutine add_loads(self, torque, reflected, instant, right, driving, loading, found)
-    class(moving_linkage_t), intent(in) :: self
-    real(wp), intent(in) :: torque                  !! of the drive, but for the rotor
-    real(wp), intent(in) :: reflected               !! its inertia on the first drive
+  !> Motion of the first drive and torque of its motor. Not found where the motor has no torque.
+  subroutine find_first_drive(self, time, state, instant, found)
+    class(moving_linkage_t), intent(inout) :: self
+    real(wp), intent(in) :: time, state(:)
     type(linkage_instant_t), intent(inout) :: instant !! with pose and velocities
-    real(wp), intent(inout) :: right(:), driving(:), loading(:) !! (coordinates)
     logical, intent(out) :: found
 
-    type(load_t) :: body_load(size(self%rigid)), of_springs(size(self%rigid))
-    real(wp), dimension(2, size(instant%pose%pin, 2)) :: pin_load, spring_force
-    type(friction_t) :: friction
-    real(wp) :: added(size(instant%per))
+    type(error_t), allocatable :: error
+    real(wp) :: coordinate
     integer :: k
 
-    found = .true.
-    pin_load = 0.0_wp
-    associate (linkage => self%whole%linkage, origin => self%whole%origin, pose => instant%pose, &
-        per => instant%per, now => instant%motion)
-      do k = 1, size(per)
-        added(k) = dot_product(linkage%couple, per(k)%turn)
-      end do
-      driving = driving + added
-      loading = loading + added
-      if (size(linkage%loads) > 0 .or. has_friction(linkage)) then
-        spring_force = 0.0_wp
-        call add_conservative_loads(linkage, pose, of_springs, spring_force)
-        call add_prescribed_loads(linkage, pose, origin, body_load, pin_load)
-        call add_moving_loads(linkage, pose, origin, now, body_load, pin_load)
-        do k = 1, size(per)
-          right(k) = right(k) + generalised_force(linkage, per(k), of_springs, spring_force)
-          added(k) = generalised_force(linkage, per(k), body_load, pin_load)
+    associate (first => instant%first, now => instant%motion)
+      if (self%by_drives) then
+        first%per = 0.0_wp
+        first%per(1) = 1.0_wp
+        first%rate = state(size(self%free) + 1)
+        first%bent = 0.0_wp
+        coordinate = state(1)
+      else if (allocated(self%loop)) then
+        first%per = instant%per(1)%turn(1)
+        first%rate = now%turn(1)
+        first%bent = now%turn_slope(1)
+        coordinate = coordinate_of(self, instant%pose)
+      else
+        do k = 1, size(first%per)
+          first%per(k) = rate_of_drive(self, instant%pose, instant%per(k), 1)
         end do
-        driving = driving + added
-        loading = loading + added
-        call add_to(of_springs, body_load)
-        pin_load = pin_load + spring_force
+        first%rate = rate_of_drive(self, instant%pose, now, 1)
+        first%bent = drive_acceleration(self%whole, instant%pose, 1, now)
+        coordinate = coordinate_of(self, instant%pose)
       end if
-      if (has_friction(linkage)) then
-        call find_free_friction(self%whole, self%rigid, pose, per, now, body_load, pin_load, &
-          torque, friction, reflected)
-        found = friction%state == is_solved
-        do k = 1, size(per)
-          added(k) = generalised_force(linkage, per(k), friction%body_load, friction%pin_load)
-        end do
-        driving = driving + added
-        loading = loading + added
-        call add_to(friction%body_load, body_load)
-        pin_load = pin_load + friction%pin_load
-        instant%friction = friction%effort
+      call refuse_speed(self%drive, self%gear%ratio*first%rate, error)
+      found = .not. allocated(error)
+      if (.not. found) then
+        self%stop = stop_at_end
+        call move_alloc(error, self%left)
+        return
       end if
+      first%motor = self%drive%torque(time, self%gear%ratio*coordinate, self%gear%ratio*first%rate)
     end associate
-    instant%body_load = body_load
-    instant%pin_load = pin_load
+  end subroutine find_first_drive
 
-  contains
+  !> ü, with the losses in the gear.
+  !!
+  !! The torque through the gear depends on ü, and the losses in the gear on its sign. With either
+  !! losses it has the same sign, so that a second trial at most finds those that there are: of M, Q
+  !! and the motor's torque Tm per coordinate of the driven body it is that of `M Tm − J n Q`.
+  !! Friction in joints may disturb this; then the losses of the second trial count.
+  subroutine find_accelerations(self, instant, torque, found)
+    class(moving_linkage_t), intent(inout) :: self
+    type(linkage_instant_t), intent(inout) :: instant !! with M, Q and the first drive
+    real(wp), intent(out) :: torque !! on the first drive, but for the rotor [N m] or [N]
+    logical, intent(out) :: found
 
-    pure subroutine add_to(more, loads)
-      type(load_t), intent(in) :: more(:)
-      type(load_t), intent(inout) :: loads(:)
+    real(wp) :: through
+    integer :: trial
 
-      integer :: b
+    through = instant%first%motor
+    do trial = 1, 2
+      call solve_trial(self, through, instant, torque, found)
+      if (.not. found) return
+      if (self%gear%efficiency >= 1.0_wp) return
+      if (through >= 0.0_wp .eqv. instant%driven%through >= 0.0_wp) return
+      through = instant%driven%through
+    end do
+  end subroutine find_accelerations
 
-      do b = 1, size(loads)
-        loads(b)%force = loads(b)%force + more(b)%force
-        loads(b)%moment = loads(b)%moment + more(b)%moment
+  !> ü with the losses of a torque through the gear, of which only the sign counts.
+  subroutine solve_trial(self, through, instant, torque, found)
+    class(moving_linkage_t), intent(inout) :: self
+    real(wp), intent(in) :: through                   !! [N m]
+    type(linkage_instant_t), intent(inout) :: instant
+    real(wp), intent(out) :: torque                   !! on the first drive, but for the rotor
+    logical, intent(out) :: found
+
+    type(dense_factor_t) :: factor
+    real(wp) :: share, reflected
+    integer :: k
+
+    associate (gear => self%gear, first => instant%first)
+      share = gear_share(gear, first%rate, through)
+      reflected = reflected_inertia(gear, share)
+      torque = gear%ratio*share*first%motor
+      do k = 1, size(first%per)
+        instant%with_rotor(:, k) = instant%inertia(:, k) + reflected*first%per(k)*first%per
       end do
-    end subroutine add_to
-
-  end subroutine add_loads
+      if (allocated(self%loop)) then
+        found = instant%with_rotor(1, 1) > least_inertia*self%all_inertia
+      else
+        call factorize(instant%with_rotor, factor)
+        found = abs(factor%determinant) > least_inertia
+      end if
+      if (.not. found) then
+        self%stop = stop_no_inertia
+        return
+      end if
+      instant%driving = torque*first%per
+      instant%loading = 0.0_wp
+      instant%all_right = instant%right
+      if (self%has_loads) call add_loads(self%whole, self%rigid, torque, reflected, instant, found)
+      if (.not. found) then
+        self%stop = stop_locked
+        return
+      end if
+      instant%all_right = instant%all_right + instant%driving - (reflected*first%bent)*first%per
+      if (allocated(self%loop)) then
+        instant%acceleration(1) = instant%all_right(1)/instant%with_rotor(1, 1)
+      else
+        instant%acceleration = solve(factor, instant%all_right)
+      end if
+      instant%driven = driven_by(gear, first%motor, share, first%rate, first%bent + &
+        dot_product(first%per, instant%acceleration))
+    end associate
+  end subroutine solve_trial
 
   !> Coordinate of the first drive, with all whole turns [rad] or [m].
   pure function coordinate_of(self, pose) result(coordinate)
@@ -561,61 +503,6 @@ contains
       self%chart%crank)
     if (self%whole%linkage%drives(1)%kind == drive_of_angle) coordinate = coordinate*degree
   end function coordinate_of
-
-  !> M, and the generalised forces of gravity, constant forces and inertia without ü.
-  pure subroutine sum_up(self, pose, now, per, inertia, right)
-    class(moving_linkage_t), intent(in) :: self
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: now
-    type(kinematic_coefficients_t), intent(in) :: per(:)
-    real(wp), intent(out) :: inertia(:, :)
-    real(wp), intent(out) :: right(:)
-
-    real(wp) :: along(2, size(per)), force(2), turning
-    real(wp), dimension(2) :: centre, arm, across, slope
-    integer :: b, k, l, p
-
-    inertia = 0.0_wp
-    right = 0.0_wp
-    associate (linkage => self%whole%linkage, rigid => self%rigid)
-      do b = 1, size(rigid)
-        centre = mass_centre(rigid(b))
-        turning = central_inertia(rigid(b))
-        associate (axis => pose%direction(:, b), pin => linkage%bodies(b)%first_pin)
-          ! As `find_point_coefficients` has it, without calls: this is most of the work of a step.
-          arm = centre(1)*axis + centre(2)*[-axis(2), axis(1)]
-          across = [-arm(2), arm(1)]
-          slope = now%pin_slope(:, pin) + now%turn_slope(b)*across - now%turn(b)**2*arm
-          do k = 1, size(per)
-            along(:, k) = per(k)%pin(:, pin) + per(k)%turn(b)*across
-          end do
-        end associate
-        force = rigid(b)%mass*(linkage%gravity - slope)
-        do k = 1, size(per)
-          right(k) = right(k) + dot_product(force, along(:, k)) - turning*now%turn_slope(b)* &
-            per(k)%turn(b)
-          do l = 1, k
-            inertia(k, l) = inertia(k, l) + rigid(b)%mass*dot_product(along(:, k), &
-              along(:, l)) + turning*per(k)%turn(b)*per(l)%turn(b)
-          end do
-        end do
-      end do
-      do p = 1, size(linkage%is_ground)
-        force = linkage%pin_mass(p)*(linkage%gravity - now%pin_slope(:, p)) + &
-          linkage%pin_force(:, p)
-        do k = 1, size(per)
-          right(k) = right(k) + dot_product(force, per(k)%pin(:, p))
-          do l = 1, k
-            inertia(k, l) = inertia(k, l) + linkage%pin_mass(p)*dot_product(per(k)%pin(:, p), &
-              per(l)%pin(:, p))
-          end do
-        end do
-      end do
-    end associate
-    do k = 1, size(per)
-      inertia(:k - 1, k) = inertia(k, :k - 1)
-    end do
-  end subroutine sum_up
 
   !> The least inertia of the coordinates, as a share of all masses [-].
   subroutine inertia_share(self, state, share)
@@ -644,7 +531,7 @@ contains
     least = 0.0_wp
     call find_state(self, state, pose, per, now, found)
     if (.not. found) return
-    call sum_up(self, pose, now, per, inertia, right)
+    call find_inertia(self%whole%linkage, self%rigid, pose, now, per, inertia, right)
     do k = 1, size(right)
       inertia(k, k) = inertia(k, k) + self%gear%ratio**2*self%gear%rotor*rate_of_drive(self, pose, &
         per(k), 1)**2

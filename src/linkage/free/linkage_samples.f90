@@ -9,8 +9,8 @@ module linkage_samples
   use joint_forces, only: joint_forces_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkage_rates, only: find_instant, find_state, linkage_instant_t, moving_linkage_t, &
-    rate_of_drive
+  use linkage_instants, only: linkage_instant_t
+  use linkage_rates, only: find_instant, find_state, moving_linkage_t, rate_of_drive
   use linkages, only: drive_of_angle
   use loop_curves, only: closure_error
   use pose_types, only: pose_t
