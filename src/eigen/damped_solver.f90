@@ -7,7 +7,15 @@ module damped_solver
   implicit none (type, external)
   private
 
-  public :: solve_damped, damping_times_vector, mass_times_complex, stiffness_times_complex
+  public :: damped_system_t, solve_damped, damping_times_vector, mass_times_complex, &
+    stiffness_times_complex
+
+  !> The matrices of an eigenproblem with dampers.
+  type :: damped_system_t
+    type(bordered_pencil_t) :: pencil        !! K and M
+    real(wp), allocatable :: dampers(:, :)   !! (border, dampers) B, rows times √c, independent
+                                             !! columns: `C = B Bᵀ` [√s]
+  end type damped_system_t
 
 contains
 
