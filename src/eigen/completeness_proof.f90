@@ -21,6 +21,23 @@ module completeness_proof
   !! error accepted.
   real(wp), parameter :: loss = 100.0_wp*epsilon(1.0_wp), most_loss = 1.0e-3_wp
 
+  !> The lower triangle of `A − B D⁻¹ Bᵀ`, a row for each unknown outside the tail.
+  type :: condensed_t
+    real(wp), allocatable :: matrix(:, :)
+    real(wp), allocatable :: terms(:)     !! (rows) magnitudes of all terms of a diagonal entry:
+                                          !! rounding is proportional to them, in an entry (i, j)
+                                          !! to the root of those of i times those of j; where G
+                                          !! has no such bound, to its rows
+    integer, allocatable :: unknown(:)    !! (rows) ascending
+    integer, allocatable :: row(:)        !! (unknowns) 0: in the tail
+  contains
+    procedure :: add_unknown
+    procedure :: add_column
+    procedure :: subtract_product
+    procedure :: add_modes
+    procedure :: subtract_rounding
+  end type condensed_t
+
 contains
 
   !> Upper end of the interval in which modes are counted.
@@ -211,7 +228,7 @@ contains
   end subroutine find_tail
 
   !> The factorization of `A − B D⁻¹ Bᵀ`, with the terms of the modes added.
-  subroutine factor_without_tail(pencil, limit, lambda, mass_times, dominance, proven)
+  pure subroutine factor_without_tail(pencil, limit, lambda, mass_times, dominance, proven)
     type(bordered_pencil_t), intent(in) :: pencil
     real(wp), intent(in) :: limit
     real(wp), intent(in) :: lambda(:)
@@ -219,112 +236,172 @@ contains
     real(wp), intent(in) :: dominance(:) !! (unknowns) D in the tail, zero outside it
     logical, intent(out) :: proven
 
-    real(wp), allocatable :: dense(:, :), column(:), terms(:)
-    integer, allocatable :: leading(:), place(:)
+    type(condensed_t) :: condensed
     type(band_matrix_t) :: band
     type(error_t), allocatable :: error
-    real(wp) :: lift
-    integer :: b, i, j, k, n, first, kept
+    integer :: b, k, kept, first
 
-    associate (layout => pencil%layout, mass => pencil%mass, geometric => pencil%geometric)
-      leading = pack(all_unknowns(layout), dominance <= 0.0_wp)
-      n = size(leading)
-      allocate (place(layout%unknowns), dense(n, n), column(n), terms(n))
-      place = 0
-      place(leading) = [(i, i=1, n)]
-      dense = 0.0_wp
-      ! Magnitudes of all terms of a diagonal entry: rounding is proportional to them, in an entry
-      ! (i, j) to the root of those of i times those of j. Where G has no such bound, to its rows.
-      terms = 1.0_wp
-      terms(layout%border - layout%free + 1:layout%border) = 0.0_wp
-      do k = 1, layout%border
-        dense(:layout%border, k) = -limit*mass%border(:, k)
-        terms(k) = terms(k) + abs(limit*mass%border(k, k))
-        if (pencil%loaded) then
-          dense(:layout%border, k) = dense(:layout%border, k) + geometric%border(:, k)
-          terms(k) = terms(k) + sum(abs(geometric%border(:, k))) + sum(abs(geometric%coupling(k, &
-            layout%border + 1:)))
-        end if
-        if (k <= layout%border - layout%free) dense(k, k) = dense(k, k) + 1.0_wp
-      end do
+    associate (layout => pencil%layout)
+      condensed = new_condensed(pencil, limit, dominance)
       do b = 1, size(layout%size)
         first = layout%first(b) - 1
         kept = count(dominance(first + 1:first + layout%size(b)) <= 0.0_wp)
         do k = 1, layout%size(b)
-          call fill_column(first + k, kept, b, k)
+          call condensed%add_unknown(pencil, limit, dominance(first + k), first + k, kept, b)
         end do
       end do
       do k = layout%border + sum(layout%size) + 1, layout%unknowns
-        call fill_column(k, 0, 0, 0)
+        call condensed%add_unknown(pencil, limit, dominance(k), k, 0, 0)
       end do
-      do i = 1, size(lambda)
-        lift = max(0.0_wp, limit + abs(limit) - lambda(i))
-        column = mass_times(leading, i)
-        terms = terms + lift*column**2
-        do j = 1, n
-          dense(j:, j) = dense(j:, j) + lift*column(j)*column(j:)
-        end do
-      end do
-      ! Rounding of the sums and, for the factorization, (n + 2) ε/2 of the terms; n times, for a
-      ! matrix of n rows with entries up to d_i d_j is at most n times the diagonal of d_i².
-      do i = 1, n
-        dense(i, i) = dense(i, i) - n*epsilon(lift)*(layout%unknowns + 2 + 8*size(lambda))*terms(i)
-      end do
+      call condensed%add_modes(limit, lambda, mass_times)
+      call condensed%subtract_rounding(layout%unknowns + 2 + 8*size(lambda))
     end associate
-    band = full_band(dense)
+    band = full_band(condensed%matrix)
     call factor_band(band, error)
     proven = .not. allocated(error)
-
-  contains
-
-    !> What an unknown beyond the border adds to the lower triangle: its column, or in the tail the
-    !! term of `B D⁻¹ Bᵀ`.
-    subroutine fill_column(unknown, kept, block, number)
-      integer, intent(in) :: unknown
-      integer, intent(in) :: kept   !! unknowns of its block outside the tail
-      integer, intent(in) :: block  !! 0: a single unknown
-      integer, intent(in) :: number !! in its block
-
-      real(wp) :: coupling(pencil%layout%border + kept), diagonal
-      integer :: i, j, at, border
-
-      border = pencil%layout%border
-      coupling(:border) = -limit*pencil%mass%coupling(:, unknown)
-      diagonal = -limit*pencil%mass%diagonal(unknown)
-      if (pencil%loaded) coupling(:border) = coupling(:border) + &
-        pencil%geometric%coupling(:, unknown)
-      if (block > 0 .and. pencil%loaded) coupling(border + 1:) = &
-        pencil%geometric%block(:kept, number, block)
-      if (block > 0 .and. .not. pencil%loaded) coupling(border + 1:) = 0.0_wp
-      at = place(unknown)
-      if (at > 0) then
-        dense(at, :border) = coupling(:border)
-        terms(at) = terms(at) + abs(diagonal)
-        if (pencil%loaded) terms(at) = terms(at) + sum(abs(pencil%geometric%coupling(:, unknown)))
-        if (block > 0) then
-          if (pencil%loaded) terms(at) = terms(at) + sum(abs(coupling(border + 1:)))
-          dense(at - number + 1:at - number + kept, at) = coupling(border + 1:)
-        end if
-        dense(at, at) = dense(at, at) + 1.0_wp + diagonal
-        return
-      end if
-      do j = 1, size(coupling)
-        terms(row(j)) = terms(row(j)) + coupling(j)**2/dominance(unknown)
-        do i = j, size(coupling)
-          dense(row(i), row(j)) = dense(row(i), row(j)) - coupling(i)*coupling(j)/dominance(unknown)
-        end do
-      end do
-    end subroutine fill_column
-
-    !> Row of an entry of a column: border first, then the block.
-    pure function row(i)
-      integer, intent(in) :: i
-      integer :: row
-
-      row = i
-      if (i > pencil%layout%border) row = place(first + i - pencil%layout%border)
-    end function row
-
   end subroutine factor_without_tail
+
+  !> The border of `K − μM`; all other rows are zero.
+  pure function new_condensed(pencil, limit, dominance) result(condensed)
+    type(bordered_pencil_t), intent(in) :: pencil
+    real(wp), intent(in) :: limit
+    real(wp), intent(in) :: dominance(:) !! (unknowns) zero outside the tail
+    type(condensed_t) :: condensed
+
+    integer :: i, k, n
+
+    associate (layout => pencil%layout, border => pencil%layout%border)
+      condensed%unknown = pack(all_unknowns(layout), dominance <= 0.0_wp)
+      n = size(condensed%unknown)
+      allocate (condensed%row(layout%unknowns), condensed%matrix(n, n), condensed%terms(n))
+      condensed%row = 0
+      condensed%row(condensed%unknown) = [(i, i=1, n)]
+      condensed%matrix = 0.0_wp
+      condensed%terms = 1.0_wp
+      condensed%terms(border - layout%free + 1:border) = 0.0_wp
+      do k = 1, border
+        condensed%matrix(:border, k) = -limit*pencil%mass%border(:, k)
+        condensed%terms(k) = condensed%terms(k) + abs(limit*pencil%mass%border(k, k))
+        if (pencil%loaded) then
+          associate (geometric => pencil%geometric)
+            condensed%matrix(:border, k) = condensed%matrix(:border, k) + geometric%border(:, k)
+            condensed%terms(k) = condensed%terms(k) + sum(abs(geometric%border(:, k))) + &
+              sum(abs(geometric%coupling(k, border + 1:)))
+          end associate
+        end if
+        if (k <= border - layout%free) condensed%matrix(k, k) = condensed%matrix(k, k) + 1.0_wp
+      end do
+    end associate
+  end function new_condensed
+
+  !> Adds an unknown beyond the border: its column, or in the tail its term of `B D⁻¹ Bᵀ`.
+  pure subroutine add_unknown(self, pencil, limit, dominance, unknown, kept, block)
+    class(condensed_t), intent(inout) :: self
+    type(bordered_pencil_t), intent(in) :: pencil
+    real(wp), intent(in) :: limit
+    real(wp), intent(in) :: dominance !! its entry of D; zero outside the tail
+    integer, intent(in) :: unknown
+    integer, intent(in) :: kept       !! unknowns of its block outside the tail
+    integer, intent(in) :: block      !! 0: a single unknown
+
+    real(wp) :: coupling(pencil%layout%border + kept)
+    integer :: rows(pencil%layout%border + kept)
+    integer :: i, border, first
+
+    border = pencil%layout%border
+    coupling(:border) = -limit*pencil%mass%coupling(:, unknown)
+    coupling(border + 1:) = 0.0_wp
+    rows(:border) = [(i, i=1, border)]
+    if (pencil%loaded) coupling(:border) = coupling(:border) + &
+      pencil%geometric%coupling(:, unknown)
+    if (block > 0) then
+      first = pencil%layout%first(block) - 1
+      rows(border + 1:) = self%row(first + 1:first + kept)
+      if (pencil%loaded) coupling(border + 1:) = pencil%geometric%block(:kept, unknown - first, &
+        block)
+    end if
+    if (self%row(unknown) > 0) then
+      call self%add_column(pencil, limit, unknown, rows, coupling)
+    else
+      call self%subtract_product(coupling, rows, dominance)
+    end if
+  end subroutine add_unknown
+
+  !> Adds the column of an unknown outside the tail.
+  pure subroutine add_column(self, pencil, limit, unknown, rows, coupling)
+    class(condensed_t), intent(inout) :: self
+    type(bordered_pencil_t), intent(in) :: pencil
+    real(wp), intent(in) :: limit
+    integer, intent(in) :: unknown
+    integer, intent(in) :: rows(:)      !! of the border, then of its block
+    real(wp), intent(in) :: coupling(:) !! (rows) entries
+
+    real(wp) :: diagonal
+    integer :: at, border
+
+    at = self%row(unknown)
+    border = pencil%layout%border
+    diagonal = -limit*pencil%mass%diagonal(unknown)
+    self%matrix(at, :border) = coupling(:border)
+    self%terms(at) = self%terms(at) + abs(diagonal)
+    if (pencil%loaded) self%terms(at) = self%terms(at) + &
+      sum(abs(pencil%geometric%coupling(:, unknown))) + sum(abs(coupling(border + 1:)))
+    self%matrix(rows(border + 1:), at) = coupling(border + 1:)
+    self%matrix(at, at) = self%matrix(at, at) + 1.0_wp + diagonal
+  end subroutine add_column
+
+  !> Subtracts `b bᵀ/d` of an unknown in the tail.
+  pure subroutine subtract_product(self, coupling, rows, dominance)
+    class(condensed_t), intent(inout) :: self
+    real(wp), intent(in) :: coupling(:) !! (rows) b
+    integer, intent(in) :: rows(:)      !! ascending
+    real(wp), intent(in) :: dominance   !! d
+
+    integer :: i, j
+
+    do j = 1, size(coupling)
+      self%terms(rows(j)) = self%terms(rows(j)) + coupling(j)**2/dominance
+      do i = j, size(coupling)
+        self%matrix(rows(i), rows(j)) = self%matrix(rows(i), rows(j)) - coupling(i)*coupling(j)/ &
+          dominance
+      end do
+    end do
+  end subroutine subtract_product
+
+  !> Adds `(μ + s − λ_i) w_i w_iᵀ` of all modes.
+  pure subroutine add_modes(self, limit, lambda, mass_times)
+    class(condensed_t), intent(inout) :: self
+    real(wp), intent(in) :: limit
+    real(wp), intent(in) :: lambda(:)        !! (modes)
+    real(wp), intent(in) :: mass_times(:, :) !! (unknowns, modes)
+
+    real(wp) :: column(size(self%unknown)), lift
+    integer :: i, j
+
+    do i = 1, size(lambda)
+      lift = max(0.0_wp, limit + abs(limit) - lambda(i))
+      column = mass_times(self%unknown, i)
+      self%terms = self%terms + lift*column**2
+      do j = 1, size(column)
+        self%matrix(j:, j) = self%matrix(j:, j) + lift*column(j)*column(j:)
+      end do
+    end do
+  end subroutine add_modes
+
+  !> Subtracts a bound of the rounding from the diagonal.
+  !!
+  !! Rounding of the sums and, for the factorization, (n + 2) ε/2 of the terms; n times, for a
+  !! matrix of n rows with entries up to d_i d_j is at most n times the diagonal of d_i².
+  pure subroutine subtract_rounding(self, sums)
+    class(condensed_t), intent(inout) :: self
+    integer, intent(in) :: sums !! of so many terms an entry is made, at most
+
+    integer :: i, n
+
+    n = size(self%terms)
+    do i = 1, n
+      self%matrix(i, i) = self%matrix(i, i) - n*epsilon(1.0_wp)*sums*self%terms(i)
+    end do
+  end subroutine subtract_rounding
 
 end module completeness_proof
