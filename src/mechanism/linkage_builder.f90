@@ -54,13 +54,13 @@ contains
 
     call list_pins(model, assembly%pins)
     assembly%link = [(i, i=1, size(model%links))]
-    call take_parts(model, assembly, sides)
+    call build_from_cards(model, assembly, sides)
     call plan_linkage(assembly%linkage, sides, assembly%problem, body_order, pin_order, &
       undecided)
     if (allocated(assembly%problem)) return
     assembly%link = assembly%link(body_order)
     assembly%pins = assembly%pins(pin_order)
-    call take_parts(model, assembly, sides)
+    call build_from_cards(model, assembly, sides)
     call plan_linkage(assembly%linkage, sides, assembly%problem, body_order, pin_order, &
       undecided)
     if (is_four_bar(model)) assembly%linkage%bodies(2)%heading = [1.0_wp, 0.0_wp]
@@ -143,7 +143,7 @@ contains
   end subroutine add_pin
 
   !> Pins, bodies, sliders, turns, drives and sides, in the order of the assembly's lists.
-  pure subroutine take_parts(model, assembly, sides)
+  pure subroutine build_from_cards(model, assembly, sides)
     type(model_t), intent(in) :: model
     type(assembly_t), intent(inout) :: assembly
     type(side_t), allocatable, intent(out) :: sides(:)
@@ -182,7 +182,7 @@ contains
     call take_sides(model, pins, sides)
     if (size(model%drawn_pins) > 0) call complete_drawing(linkage, model%crank%value)
     assembly%linkage = linkage
-  end subroutine take_parts
+  end subroutine build_from_cards
 
   !> A body with the pins of its link: the first two of the card are its first and last.
   pure subroutine take_body(model, pins, number, is_ground, body)

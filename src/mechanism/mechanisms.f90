@@ -1,7 +1,7 @@
 !> Model → mechanism: the linkage with its masses and loads, its beams and its mesh.
 module mechanisms
   use applied_loads, only: forced_places
-  use attached_parts, only: append_loads, apply_loads, attach_masses, body_point_t, points_of, &
+  use body_attachments, only: append_loads, apply_loads, attach_masses, body_point_t, points_of, &
     runs_against
   use beam_mesh, only: new_beam_mesh
   use four_bar_loops, only: find_four_bar, four_bar_t

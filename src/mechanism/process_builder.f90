@@ -3,7 +3,7 @@ module process_builder
   use applied_load_types, only: acts_against_motion, acts_always, acts_with_motion, &
     applied_load_t, applies_couple, applies_force, load_over_angle => over_angle, &
     load_over_drive => over_drive, load_over_slider => over_slider, load_over_travel => over_travel
-  use attached_parts, only: place_on_body
+  use body_attachments, only: place_on_body
   use cubic_splines, only: ends_not_a_knot, ends_periodic, new_cubic_spline
   use kinds, only: wp
   use linkages, only: linkage_t, turned

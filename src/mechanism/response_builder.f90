@@ -1,6 +1,6 @@
 !> Model → damping, gauges and points on the bodies of the linkage, for the elastic response.
 module response_builder
-  use attached_parts, only: body_point_t, place_on_body, points_of, runs_against
+  use body_attachments, only: body_point_t, place_on_body, points_of, runs_against
   use kinds, only: wp
   use linkages, only: linkage_t
   use models, only: model_t

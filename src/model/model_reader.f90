@@ -16,7 +16,7 @@ module model_reader
   use four_bar_branches, only: check_format_of_four_bar, find_four_bar_branch
   use followed_places, only: find_followed_places
   use friction_checks, only: check_frictions, read_frictions
-  use idle_parts, only: leave_out_idle_parts
+  use idle_links, only: leave_out_idle_links
   use joint_cards, only: read_guide, read_pin, read_slider, read_weld
   use joint_checks, only: check_joints
   use kinds, only: wp
@@ -111,7 +111,7 @@ contains
     if (.not. any([has_card(cards, "DRIVE"), has_card(cards, "CRANK"), has_card(cards, "TIME"), &
       has_card(cards, "MOTOR"), has_card(cards, "LAW"), .not. describes_structure(model)])) &
       call take_structure(model)
-    call leave_out_idle_parts(cards, diagnostics, model)
+    call leave_out_idle_links(cards, diagnostics, model)
     call read_springs(cards, diagnostics, model)
     call read_frictions(cards, diagnostics, model)
     call check_tables(cards, diagnostics)

@@ -110,7 +110,7 @@ contains
         if (ground > 0) then
           call add_error(diagnostics, pin, "'"//pin%text//"' is a ground pivot and has its "// &
             "place already", model%grounds(ground)%pin, "it is fixed here")
-        else if (find_name(pins, pin%text) == 0 .and. holds_part(model, pin%text)) then
+        else if (find_name(pins, pin%text) == 0 .and. has_slider_or_spring(model, pin%text)) then
           call add_error(diagnostics, pin, "pin '"//pin%text//"' is of no link; expected it on "// &
             "the LINK card of the body that slides or is held there (rigid, with 'mass='), or "// &
             "GROUND "//pin%text//" x y for the end of a spring that is fixed")
@@ -122,7 +122,7 @@ contains
   end subroutine check_drawing
 
   !> Whether a SLIDER, SPRING or DAMPER card names a pin.
-  pure function holds_part(model, name) result(holds)
+  pure function has_slider_or_spring(model, name) result(holds)
     type(model_t), intent(in) :: model
     character(len=*), intent(in) :: name
     logical :: holds
@@ -134,7 +134,7 @@ contains
       if (model%sliders(i)%pin%line > 0) holds = holds .or. same_word(model%sliders(i)%pin%text, &
         name)
     end do
-  end function holds_part
+  end function has_slider_or_spring
 
   !> Looks up the links of a weld.
   pure subroutine find_weld(diagnostics, model, links, pins, weld)

@@ -30,7 +30,7 @@ contains
     integer :: i
 
     if (.not. needs_frequencies(model) .or. has_errors(diagnostics)) return
-    call find_other_part(model, card, what)
+    call find_other_card(model, card, what)
     if (len(what) == 0) return
     if (model%solver == solver_dense .or. model%solver == solver_band) then
       call add_error(diagnostics, model%solver_word, "SOLVER "// &
@@ -46,7 +46,7 @@ contains
   end subroutine check_nodal
 
   !> The first card that makes a linkage another one, and what it has.
-  pure subroutine find_other_part(model, card, what)
+  pure subroutine find_other_card(model, card, what)
     type(model_t), intent(in) :: model
     type(token_t), intent(out) :: card
     character(len=:), allocatable, intent(out) :: what !! empty: there is none
@@ -83,6 +83,6 @@ contains
       card = model%drives(1)%keyword
       what = "this drive does not hold a link on a ground pivot"
     end if
-  end subroutine find_other_part
+  end subroutine find_other_card
 
 end module nodal_checks

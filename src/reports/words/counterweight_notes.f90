@@ -1,6 +1,6 @@
 !> Remarks on counterweights and balance shafts, at the head of `balance.dat`.
 module counterweight_notes
-  use attached_parts, only: place_on_card
+  use body_attachments, only: place_on_card
   use constants, only: degree
   use kinds, only: wp
   use numbers, only: shortest_text

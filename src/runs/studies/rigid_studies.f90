@@ -1,6 +1,6 @@
 !> Studies of the rigid linkage: kinematics, forces, balance, limits.
 module rigid_studies
-  use attached_parts, only: body_point_t
+  use body_attachments, only: body_point_t
   use balance_requests, only: balance_request_of
   use balance_study, only: balance_request_t, find_balance
   use drive_motions, only: drive_rates

@@ -1,6 +1,6 @@
 !> Model → masses and points on the bodies of the linkage, and external loads. Places are turned
 !! from the axes of the LINK card into those of the body.
-module attached_parts
+module body_attachments
   use applied_load_types, only: applied_load_t
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
@@ -229,4 +229,4 @@ contains
     end do
   end function points_of
 
-end module attached_parts
+end module body_attachments

@@ -1,6 +1,6 @@
 !> Rigid links and ground pivots that move nothing and hold nothing, as files of other programs have
 !! them: they are left out, with a warning.
-module idle_parts
+module idle_links
   use cards, only: card_t
   use diagnostics, only: add_warning, diagnostics_t, has_errors
   use joint_cards, only: drawn_pin_t
@@ -15,7 +15,7 @@ module idle_parts
   implicit none (type, external)
   private
 
-  public :: leave_out_idle_parts
+  public :: leave_out_idle_links
 
   !> Characters of names.
   character(len=*), parameter :: name_characters = &
@@ -35,7 +35,7 @@ contains
   !! are joined to nothing; then ground pivots that nothing uses. What bends, has a mass or is named
   !! stays. So does what looks misspelt, and what hangs on a linkage that is not complete without
   !! it: parts may be missing.
-  pure subroutine leave_out_idle_parts(cards, diagnostics, model)
+  pure subroutine leave_out_idle_links(cards, diagnostics, model)
     type(card_t), intent(in) :: cards(:)              !! of the deck
     type(diagnostics_t), intent(inout) :: diagnostics !! a warning for each part is added
     type(model_t), intent(inout) :: model             !! with its cards read; nothing looked up
@@ -60,7 +60,7 @@ contains
     if (size(model%drives) > 0) call leave_hanging(cards, model, plain, diagnostics, stays)
     if (.not. all(stays)) call keep_links(cards, stays, model)
     call keep_grounds(cards, diagnostics, model)
-  end subroutine leave_out_idle_parts
+  end subroutine leave_out_idle_links
 
   !> Whether a link has neither a mass nor anything that bends.
   pure function may_be_idle(model, link) result(may)
@@ -402,19 +402,19 @@ contains
 
     has = .false.
     do i = 1, size(card%words)
-      has = has .or. has_part(card%words(i)%text, name)
+      has = has .or. contains_name(card%words(i)%text, name)
     end do
     do i = 1, size(card%entries)
-      has = has .or. has_part(card%entries(i)%value%text, name)
+      has = has .or. contains_name(card%entries(i)%value%text, name)
       if (.not. allocated(card%entries(i)%items)) cycle
       do k = 1, size(card%entries(i)%items)
-        has = has .or. has_part(card%entries(i)%items(k)%text, name)
+        has = has .or. contains_name(card%entries(i)%items(k)%text, name)
       end do
     end do
   end function has_name
 
   !> Whether a name is a word, or a part of one between characters that no name has.
-  pure function has_part(word, name) result(has)
+  pure function contains_name(word, name) result(has)
     character(len=*), intent(in) :: word, name
     logical :: has
 
@@ -430,7 +430,7 @@ contains
       if (has) return
       from = to + 2
     end do
-  end function has_part
+  end function contains_name
 
   !> Whether a link that stays, a block or any card uses a ground pivot.
   pure function is_used(cards, model, stays, pin) result(is)
@@ -538,4 +538,4 @@ contains
     call move_alloc(grounds, model%grounds)
   end subroutine keep_grounds
 
-end module idle_parts
+end module idle_links
