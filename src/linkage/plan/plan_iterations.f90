@@ -1,6 +1,6 @@
 !> Groups for iterations, from what no dyad places: equations are matched with unknowns, and the
-!! strongly connected part that depends on nothing else is one. What cannot be matched tells which
-!! pins nothing holds.
+!! strongly connected component that depends on nothing else is one. What cannot be matched tells
+!! which pins nothing holds.
 module plan_iterations
   use body_axes, only: other_pin, rebase
   use drawn_places, only: needed_places
@@ -33,7 +33,7 @@ contains
     type(equation_t), allocatable :: equations(:)
     type(matching_t) :: matching
     logical, allocatable :: has(:, :)
-    integer, allocatable :: pins(:), bodies(:), part(:)
+    integer, allocatable :: pins(:), bodies(:), component(:)
     integer :: i, np
 
     call rebase_to_known_pins(linkage, done)
@@ -43,18 +43,18 @@ contains
     call open_equations(linkage, done, equations)
     call find_dependence(linkage, equations, pins, bodies, has)
     matching = match_unknowns(has)
-    part = source_component(has, matching, [([i, i], i=1, np), (np + i, i=1, size(bodies))], &
+    component = source_component(has, matching, [([i, i], i=1, np), (np + i, i=1, size(bodies))], &
       [(0, i=1, np), (findloc(pins, linkage%bodies(bodies(i))%first_pin, dim=1), i=1, &
       size(bodies))])
-    has_found = size(part) > 0
+    has_found = size(component) > 0
     if (.not. has_found) then
       problem = what_is_free(linkage, matching, pins, bodies)
       problem%redundant = redundant_bodies(linkage, pack(equations, matching%unknown_of == 0))
       return
     end if
     group%kind = group_by_newton
-    group%pins = pins(pack(part, part <= np))
-    group%bodies = bodies(pack(part, part > np) - np)
+    group%pins = pins(pack(component, component <= np))
+    group%bodies = bodies(pack(component, component > np) - np)
     group%loaded = group%bodies
     if (.not. all(linkage%drawing%is_drawn(group%pins))) then
       problem = new_problem(problem_not_drawn, needed_places(linkage, pack(group%pins, .not. &
@@ -62,7 +62,7 @@ contains
       return
     end if
     allocate (group%equations(unknowns_of(group)))
-    call take_equations(equations, matching, part, np, group)
+    call take_equations(equations, matching, component, np, group)
     call settle(linkage, done, group)
   end subroutine take_rest
 
@@ -127,24 +127,24 @@ contains
     if (equation%kind == demand_drive) body = linkage%drives(equation%number)%body
   end function body_of
 
-  !> The equations matched with the unknowns of a part.
-  pure subroutine take_equations(equations, matching, part, np, group)
+  !> The equations matched with the unknowns of a component.
+  pure subroutine take_equations(equations, matching, component, np, group)
     type(equation_t), intent(in) :: equations(:)
     type(matching_t), intent(in) :: matching
-    integer, intent(in) :: part(:)
+    integer, intent(in) :: component(:)
     integer, intent(in) :: np
     type(group_t), intent(inout) :: group
 
     integer :: i, filled
 
     filled = 0
-    do i = 1, size(part)
-      if (part(i) <= np) then
-        group%equations(filled + 1) = equations(matching%equation_of(2*part(i) - 1))
-        group%equations(filled + 2) = equations(matching%equation_of(2*part(i)))
+    do i = 1, size(component)
+      if (component(i) <= np) then
+        group%equations(filled + 1) = equations(matching%equation_of(2*component(i) - 1))
+        group%equations(filled + 2) = equations(matching%equation_of(2*component(i)))
         filled = filled + 2
       else
-        group%equations(filled + 1) = equations(matching%equation_of(np + part(i)))
+        group%equations(filled + 1) = equations(matching%equation_of(np + component(i)))
         filled = filled + 1
       end if
     end do

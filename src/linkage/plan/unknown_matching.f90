@@ -1,4 +1,4 @@
-!> Matching of equations with unknowns, and the part of them that depends on no other part: after
+!> Matching of equations with unknowns, and the component of them that depends on no other: after
 !! Dulmage and Mendelsohn (1958) and Tarjan (1972), for some dozens of unknowns.
 module unknown_matching
   implicit none (type, external)
@@ -72,16 +72,16 @@ contains
     end do
   end subroutine augment
 
-  !> The smallest part of the unknowns that its own equations determine, nothing else being known;
-  !! of several, that with the lowest number. Empty if every part has loose unknowns.
-  pure function source_component(has, matching, node, companion) result(part)
+  !> The smallest component of the unknowns that its own equations determine, with nothing else
+  !! known; of several, that with the lowest number. Empty if every component has loose unknowns.
+  pure function source_component(has, matching, node, companion) result(component)
     logical, intent(in) :: has(:, :)           !! (unknowns, equations)
     type(matching_t), intent(in) :: matching   !! of these
     integer, intent(in) :: node(:)             !! (unknowns) number of what they belong to: the two
                                                !! of a pin to one; ascending from 1
     integer, intent(in), optional :: companion(:) !! (nodes) another one without which it is of no
                                                !! use, as a body is without its first pin; 0: none
-    integer, allocatable :: part(:)            !! ascending numbers of these
+    integer, allocatable :: component(:)       !! ascending numbers of these
 
     logical, allocatable :: needs(:, :), reached(:)
     logical :: grows
@@ -89,7 +89,7 @@ contains
     integer :: n, u, i, k
 
     n = maxval([0, node])
-    allocate (needs(n, n), reached(n), part(0), smallest(0))
+    allocate (needs(n, n), reached(n), component(0), smallest(0))
     needs = .false.
     do u = 1, size(has, 1)
       needs(node(u), node(u)) = .true.
@@ -118,7 +118,7 @@ contains
       end do
       if (any([(matching%is_loose(u) .and. reached(node(u)), u=1, size(node))])) cycle
       smallest = pack([(k, k=1, n)], reached)
-      if (size(part) == 0 .or. size(smallest) < size(part)) part = smallest
+      if (size(component) == 0 .or. size(smallest) < size(component)) component = smallest
     end do
   end function source_component
 
