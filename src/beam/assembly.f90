@@ -6,7 +6,7 @@ module assembly
   use beam_mesh, only: beam_mesh_t, beam_t, element_length
   use body_lumps, only: element_of_lump, lump_inertias, lump_masses, lump_offsets, lump_places
   use element_axes, only: turned_to_global
-  use element_places, only: element_part_stiffness, element_point_mass, element_point_rotation
+  use element_places, only: element_point_mass, element_point_rotation, element_stiffness_to
   use kinds, only: wp
   use linkages, only: linkage_t
   use poses, only: pose_t
@@ -138,7 +138,7 @@ contains
     do i = 1, size(jump)
       call element_of_lump(xi(i), mesh%elements(body), number, place)
       do k = 1, number
-        element = turned_to_global(jump(i)*element_part_stiffness(mesh%reference(body), &
+        element = turned_to_global(jump(i)*element_stiffness_to(mesh%reference(body), &
           element_length(mesh, linkage, body), merge(place, 1.0_wp, k == number)), &
           pose%direction(:, body))
         call add_to_band(stiffness, element, mesh%unknown(:size(element, 1), &

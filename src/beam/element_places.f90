@@ -6,7 +6,7 @@ module element_places
   implicit none (type, external)
   private
 
-  public :: element_point_mass, element_point_rotation, element_part_stiffness
+  public :: element_point_mass, element_point_rotation, element_stiffness_to
 
 contains
 
@@ -40,7 +40,7 @@ contains
 
   !> Geometric stiffness `∫ v'² dx` of a unit axial force that acts from the first node up to a
   !! place.
-  pure function element_part_stiffness(reference, length, xi) result(stiffness)
+  pure function element_stiffness_to(reference, length, xi) result(stiffness)
     type(reference_element_t), intent(in) :: reference !! of the element's order
     real(wp), intent(in) :: length !! of the element [m]
     real(wp), intent(in) :: xi     !! place, from 0 to 1 along the element
@@ -56,7 +56,7 @@ contains
         xi*(1.0_wp + x(i)) - 1.0_wp), reference%shape(:, :, 3)))
     end do
     stiffness = with_lengths(stiffness/length, length)
-  end function element_part_stiffness
+  end function element_stiffness_to
 
   pure function square(row)
     real(wp), intent(in) :: row(:)

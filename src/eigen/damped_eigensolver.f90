@@ -194,21 +194,21 @@ contains
     real(wp), allocatable :: columns(:, :)
 
     real(wp), parameter :: dependent = 1.0e-12_wp
-    real(wp) :: basis(size(dampers, 1), size(dampers, 2)), part(size(dampers, 2), &
+    real(wp) :: basis(size(dampers, 1), size(dampers, 2)), along(size(dampers, 2), &
       size(dampers, 2)), rest(size(dampers, 1))
     real(wp), allocatable :: square(:, :)
     integer :: i, j, n, pass, order(size(dampers, 2))
     logical :: silent
 
     n = 0
-    part = 0.0_wp
+    along = 0.0_wp
     silent = .false.
     order = ascending_order(-norm2(dampers, dim=1))
     do i = 1, size(order)
       rest = dampers(:, order(i))
       do pass = 1, 2
         do j = 1, n
-          part(j, order(i)) = part(j, order(i)) + dot_product(basis(:, j), rest)
+          along(j, order(i)) = along(j, order(i)) + dot_product(basis(:, j), rest)
           rest = rest - dot_product(basis(:, j), rest)*basis(:, j)
         end do
       end do
@@ -217,7 +217,7 @@ contains
         cycle
       end if
       n = n + 1
-      part(n, order(i)) = norm2(rest)
+      along(n, order(i)) = norm2(rest)
       basis(:, n) = rest/norm2(rest)
     end do
     if (.not. silent) then
@@ -225,7 +225,7 @@ contains
       return
     end if
     ! B = Q R, and R Rᵀ = L Lᵀ has few rows.
-    square = matmul(part(:n, :), transpose(part(:n, :)))
+    square = matmul(along(:n, :), transpose(along(:n, :)))
     do j = 1, n
       square(j, j) = sqrt(square(j, j) - sum(square(j, :j - 1)**2))
       do i = j + 1, n

@@ -141,7 +141,7 @@ contains
       2*size(shapes, 2)), shape(2*size(shapes, 2), 2*size(shapes, 2))
     real(wp) :: re(2*size(shapes, 2)), im(2*size(shapes, 2)), work(32*size(shapes, 2)), none(1, 1)
     real(wp) :: near
-    complex(wp) :: mu, part(size(shapes, 2))
+    complex(wp) :: mu, weights(size(shapes, 2))
     integer :: pivot(size(shapes, 2)), i, n, number, info
 
     n = size(shapes, 2)
@@ -182,10 +182,11 @@ contains
         if (abs(mu) <= tiny(near)) cycle
         number = number + 1
         s(number) = near + 1.0_wp/mu
-        part = shape(:n, i)
-        if (im(i) < 0.0_wp) part = cmplx(shape(:n, i - 1), -shape(:n, i), wp)
-        if (zeros > 0) part(zeros + 1:) = s(number)*part(zeros + 1:)
-        vector(:, number) = cmplx(matmul(shapes, real(part, wp)), matmul(shapes, aimag(part)), wp)
+        weights = shape(:n, i)
+        if (im(i) < 0.0_wp) weights = cmplx(shape(:n, i - 1), -shape(:n, i), wp)
+        if (zeros > 0) weights(zeros + 1:) = s(number)*weights(zeros + 1:)
+        vector(:, number) = cmplx(matmul(shapes, real(weights, wp)), matmul(shapes, &
+          aimag(weights)), wp)
       end do
     end if
     s = s(:number)

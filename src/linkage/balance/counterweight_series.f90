@@ -12,7 +12,7 @@ module counterweight_series
   implicit none (type, external)
   private
 
-  public :: counterweight_on, unit_parts
+  public :: counterweight_on, unit_forces
 
 contains
 
@@ -39,11 +39,11 @@ contains
   !! With e along the way, n to its left, h and h' the derivatives of the angle of the link, and arm
   !! that of the pivot from the reference point, e has `F = h² e − h' n` and n `F = h² n + h' e`,
   !! with the moments `arm × F`; the moment of inertia has the moment `−h'` and the torque `h h'`.
-  pure subroutine unit_parts(linkage, weights, crank, parts)
+  pure subroutine unit_forces(linkage, weights, crank, forces)
     type(linkage_t), intent(in) :: linkage          !! that turns fully
     type(counterweight_t), intent(in) :: weights(:) !! by `counterweight_on`
     real(wp), intent(in) :: crank                   !! [deg]
-    real(wp), intent(out) :: parts(:, :, :)         !! (4, 3, weights) force, moment, torque [1/s²],
+    real(wp), intent(out) :: forces(:, :, :)        !! (4, 3, weights) force, moment, torque [1/s²],
                                                     !! [m/s²] and [1/s²] per unit
 
     type(pose_t) :: pose
@@ -52,7 +52,7 @@ contains
     real(wp) :: e(2), n(2), way(2), arm(2), h, slope
     integer :: i
 
-    parts = 0.0_wp
+    forces = 0.0_wp
     call find_moving_pose(linkage, crank, pose, error)
     if (allocated(error)) return
     coefficients = find_kinematic_coefficients(linkage, pose)
@@ -65,12 +65,12 @@ contains
         h = coefficients%turn(b)
         slope = coefficients%turn_slope(b)
         arm = linkage%ground_position(:, pin) - reference_point(linkage)
-        parts(:2, 1, i) = h**2*e - slope*n
-        parts(:2, 2, i) = h**2*n + slope*e
-        parts(3, :, i) = [cross(arm, parts(:2, 1, i)), cross(arm, parts(:2, 2, i)), -slope]
-        parts(4, 3, i) = h*slope
+        forces(:2, 1, i) = h**2*e - slope*n
+        forces(:2, 2, i) = h**2*n + slope*e
+        forces(3, :, i) = [cross(arm, forces(:2, 1, i)), cross(arm, forces(:2, 2, i)), -slope]
+        forces(4, 3, i) = h*slope
       end associate
     end do
-  end subroutine unit_parts
+  end subroutine unit_forces
 
 end module counterweight_series

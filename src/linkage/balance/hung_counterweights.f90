@@ -156,7 +156,7 @@ contains
     type(counterweight_t), intent(out) :: weight
 
     real(wp), parameter :: rounding = 1.0e-14_wp
-    real(wp) :: from(2), way(2), part(2), moment(2), usual
+    real(wp) :: from(2), way(2), moment_here(2), moment(2), usual
     integer :: pins(2 + size(linkage%bodies(number)%further)), k
 
     associate (body => linkage%bodies(number))
@@ -170,9 +170,9 @@ contains
       load(pin) = load(pin) + rigid%mass
       do k = 1, size(pins)
         if (pins(k) == pin) cycle
-        part = load(pins(k))*(place_of_pin(body, pins(k)) - from)
-        moment = moment + part
-        usual = usual + norm2(part)
+        moment_here = load(pins(k))*(place_of_pin(body, pins(k)) - from)
+        moment = moment + moment_here
+        usual = usual + norm2(moment_here)
         load(pin) = load(pin) + load(pins(k))
       end do
       if (.not. turns) return

@@ -253,16 +253,16 @@ contains
     character(len=*), intent(in), optional :: share !! of the limit, for the message: `half of `
 
     type(token_t) :: word, limit_word
-    character(len=:), allocatable :: part
+    character(len=:), allocatable :: fraction
 
     fine = limit <= 0.0_wp .or. value < limit
     if (fine) return
-    part = ""
-    if (present(share)) part = share
+    fraction = ""
+    if (present(share)) fraction = share
     word = value_of(card, key)
     limit_word = value_of(card, limit_key)
-    call add_error(diagnostics, word, "'"//key//"=' must be less than "//part//"'"//limit_key// &
-      "=', "//limit_word%text//", not "//word%text)
+    call add_error(diagnostics, word, "'"//key//"=' must be less than "//fraction//"'"// &
+      limit_key//"=', "//limit_word%text//", not "//word%text)
   end subroutine require_less
 
   pure subroutine read_general(card, system, diagnostics, section)

@@ -42,7 +42,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
     type(model_t), intent(inout) :: model             !! with its cards read
 
-    type(law_card_t), allocatable :: parts(:)
+    type(law_card_t), allocatable :: own_cards(:)
     type(token_t) :: word
     logical :: fine
 
@@ -58,19 +58,19 @@ contains
     call refuse_cards(cards, ["CRANK", "SPEED"], &
       "the rows of tables are those of the instants of TIME", diagnostics, word)
     call refuse_time_as_name(cards, diagnostics)
-    call take_parts(model, word, parts)
-    if (size(parts) == 0) then
+    call find_own_cards(model, word, own_cards)
+    if (size(own_cards) == 0) then
       if (.not. has_errors(diagnostics)) call add_error(diagnostics, word, "there is no law '"// &
         word%text//"'"//suggestion(word%text, law_names(model))//"; expected: "// &
         pattern_of("LAW"))
       return
     end if
-    call refuse_tables_beside(parts, diagnostics, fine)
+    call refuse_tables_beside(own_cards, diagnostics, fine)
     if (.not. fine) return
-    if (parts(1)%table_word%line > 0) then
-      call take_table(cards, parts(1), diagnostics, model)
+    if (own_cards(1)%table_word%line > 0) then
+      call take_table(cards, own_cards(1), diagnostics, model)
     else
-      call take_segments(parts, diagnostics, model)
+      call take_segments(own_cards, diagnostics, model)
     end if
   end subroutine find_law
 
@@ -113,10 +113,10 @@ contains
   end subroutine refuse_time_as_name
 
   !> The LAW cards of a name, segments in the order of their starts.
-  pure subroutine take_parts(model, word, parts)
+  pure subroutine find_own_cards(model, word, own_cards)
     type(model_t), intent(in) :: model
     type(token_t), intent(in) :: word
-    type(law_card_t), allocatable, intent(out) :: parts(:)
+    type(law_card_t), allocatable, intent(out) :: own_cards(:)
 
     integer, allocatable :: order(:)
     integer :: i, count
@@ -130,11 +130,11 @@ contains
     end do
     order = order(:count)
     if (count > 0) order = order(ascending_order(model%laws(order)%start))
-    allocate (parts(count))
+    allocate (own_cards(count))
     do i = 1, count
-      parts(i) = model%laws(order(i))
+      own_cards(i) = model%laws(order(i))
     end do
-  end subroutine take_parts
+  end subroutine find_own_cards
 
   !> The names of all laws, each once.
   pure function law_names(model) result(names)
@@ -172,57 +172,57 @@ contains
   end subroutine warn_of_idle_laws
 
   !> Errors: a law has a table and further cards.
-  pure subroutine refuse_tables_beside(parts, diagnostics, fine)
-    type(law_card_t), intent(in) :: parts(:)
+  pure subroutine refuse_tables_beside(own_cards, diagnostics, fine)
+    type(law_card_t), intent(in) :: own_cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
     logical, intent(out) :: fine
 
     integer :: i, other
 
-    fine = size(parts) == 1
+    fine = size(own_cards) == 1
     if (fine) return
-    do i = 1, size(parts)
-      if (parts(i)%table_word%line == 0) cycle
+    do i = 1, size(own_cards)
+      if (own_cards(i)%table_word%line == 0) cycle
       other = merge(2, 1, i == 1)
-      call add_error(diagnostics, parts(i)%table_word, &
-        "a law is one table, or segments", parts(other)%name, "another card of this law")
+      call add_error(diagnostics, own_cards(i)%table_word, &
+        "a law is one table, or segments", own_cards(other)%name, "another card of this law")
       return
     end do
     fine = .true.
   end subroutine refuse_tables_beside
 
   !> A law of segments.
-  pure subroutine take_segments(parts, diagnostics, model)
-    type(law_card_t), intent(in) :: parts(:) !! in the order of their starts
+  pure subroutine take_segments(own_cards, diagnostics, model)
+    type(law_card_t), intent(in) :: own_cards(:) !! in the order of their starts
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model
 
-    type(motion_segment_t) :: segments(size(parts))
+    type(motion_segment_t) :: segments(size(own_cards))
     integer :: i, before
     logical :: fine
 
     fine = .true.
-    do i = 1, size(parts)
+    do i = 1, size(own_cards)
       before = max(1, i - 1)
-      associate (part => parts(i))
-        segments(i) = motion_segment_t(part%law, part%start, part%stop, part%from, part%to)
-        fine = fine .and. part%stop > part%start
+      associate (card => own_cards(i))
+        segments(i) = motion_segment_t(card%law, card%start, card%stop, card%from, card%to)
+        fine = fine .and. card%stop > card%start
         if (i == 1) then
-          if (part%from_word%line == 0) call add_error(diagnostics, part%name, &
+          if (card%from_word%line == 0) call add_error(diagnostics, card%name, &
             "the first segment of a law needs 'from=', the position at which it begins")
-          fine = fine .and. part%from_word%line > 0
+          fine = fine .and. card%from_word%line > 0
           cycle
         end if
-        if (part%start < segments(before)%stop - rounding*(part%stop - part%start)) then
-          call add_error(diagnostics, part%start_word, "segments of a law follow each other, "// &
-            "and this one starts before another one stops", parts(before)%stop_word, &
+        if (card%start < segments(before)%stop - rounding*(card%stop - card%start)) then
+          call add_error(diagnostics, card%start_word, "segments of a law follow each other, "// &
+            "and this one starts before another one stops", own_cards(before)%stop_word, &
             "the other one stops here")
           fine = .false.
         end if
-        if (part%from_word%line > 0 .and. abs(part%from - segments(before)%to) > &
-          rounding*(abs(part%from) + abs(segments(before)%to))) then
-          call add_error(diagnostics, part%from_word, &
-            "a segment begins where the one before ends", parts(before)%to_word, &
+        if (card%from_word%line > 0 .and. abs(card%from - segments(before)%to) > &
+          rounding*(abs(card%from) + abs(segments(before)%to))) then
+          call add_error(diagnostics, card%from_word, &
+            "a segment begins where the one before ends", own_cards(before)%to_word, &
             "that one ends here")
           fine = .false.
         end if
@@ -230,14 +230,14 @@ contains
       end associate
     end do
     if (.not. fine) return
-    call warn_of_jumps(parts, segments, diagnostics)
+    call warn_of_jumps(own_cards, segments, diagnostics)
     model%program%segments = segments
     call put_motion(model)
   end subroutine take_segments
 
   !> Warnings: the velocity of a ramp is not that of what is before it or behind it.
-  pure subroutine warn_of_jumps(parts, segments, diagnostics)
-    type(law_card_t), intent(in) :: parts(:)
+  pure subroutine warn_of_jumps(own_cards, segments, diagnostics)
+    type(law_card_t), intent(in) :: own_cards(:)
     type(motion_segment_t), intent(in) :: segments(:) !! of the same numbers
     type(diagnostics_t), intent(inout) :: diagnostics
 
@@ -257,8 +257,8 @@ contains
         jumps = jumps .or. abs(velocity - neighbour) > rounding*abs(velocity)
       end do
       if (segments(i)%law == law_ramp .and. jumps) call add_warning(diagnostics, &
-        parts(i)%law_word, "the velocity jumps at the ends of this ramp: forces are infinite "// &
-        "there, and tables do not have them")
+        own_cards(i)%law_word, "the velocity jumps at the ends of this ramp: forces are "// &
+        "infinite there, and tables do not have them")
     end do
   end subroutine warn_of_jumps
 
@@ -274,9 +274,9 @@ contains
 
   !> A law by a table of positions over time: a cubic spline. Of a periodic one the position may be
   !! farther on after every period, by as much as the last row differs from the first.
-  pure subroutine take_table(cards, part, diagnostics, model)
+  pure subroutine take_table(cards, card, diagnostics, model)
     type(card_t), intent(in) :: cards(:)
-    type(law_card_t), intent(in) :: part
+    type(law_card_t), intent(in) :: card
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model
 
@@ -288,35 +288,35 @@ contains
 
     dimensions(:, 1) = dimension_time
     dimensions(:, 2) = merge(dimension_length, dimension_angle, drives_length(model))
-    call read_table(cards, part%table_word, "time and position", dimensions, diagnostics, table, &
+    call read_table(cards, card%table_word, "time and position", dimensions, diagnostics, table, &
       fine)
     if (.not. fine) return
     associate (rows => size(table%values, 2), time => model%time)
       if (rows < 2) then
-        call add_error(diagnostics, part%table_word, &
+        call add_error(diagnostics, card%table_word, &
           "a law needs two rows at least; this table has "//to_string(rows))
         return
       end if
       first = table%values(1, 1)
       last = table%values(1, rows)
       slope = 0.0_wp
-      if (part%ends == table_periodic) slope = (table%values(2, rows) - table%values(2, 1))/ &
+      if (card%ends == table_periodic) slope = (table%values(2, rows) - table%values(2, 1))/ &
         (last - first)
       ! The last row of a periodic table without its slope is the first one, to the last digit.
       associate (program => model%program)
         program%rate = slope
-        program%rests = part%ends == table_rest
+        program%rests = card%ends == table_rest
         program%spline = new_cubic_spline(table%values(1, :), [table%values(2, :rows - 1) - &
           slope*(table%values(1, :rows - 1) - first), merge(table%values(2, 1), &
-          table%values(2, rows), part%ends == table_periodic)], ends(part%ends))
+          table%values(2, rows), card%ends == table_periodic)], ends(card%ends))
       end associate
       do i = 1, size(time%value)
         associate (t => time%value(i))
-          if (part%ends /= table_free .or. (t >= first .and. t <= last)) cycle
+          if (card%ends /= table_free .or. (t >= first .and. t <= last)) cycle
           call add_error(diagnostics, time%words(time%word(i)), "the table '"// &
-            part%table_word%text//"' goes from "//to_string(first, 10)//" to "// &
+            card%table_word%text//"' goes from "//to_string(first, 10)//" to "// &
             to_string(last, 10)//" s, and this instant is "//to_string(t, 10)// &
-            " s; 'ends=rest' stands still beyond, 'ends=periodic' repeats", part%table_word, &
+            " s; 'ends=rest' stands still beyond, 'ends=periodic' repeats", card%table_word, &
             "its table is given here")
           return
         end associate

@@ -50,7 +50,7 @@ contains
     else if (.not. is_empty(totals%torque)) then
       line = line//"; driving torque "//torque_text(totals%torque, units%moment)
     end if
-    line = line//response_part(totals, coherent_unit(units%system, dimension_length))
+    line = line//response_words(totals, coherent_unit(units%system, dimension_length))
     if (len(command) > 0) then
       figures = "figures: "//command//" "//shell_word(folder)
       if (len(line) + len(figures) + 2 <= longest_line) then
@@ -76,7 +76,7 @@ contains
   end function range_text
 
   !> `; largest strain 0.000721, displacement 4.99 mm`, as far as these are known.
-  pure function response_part(totals, length) result(text)
+  pure function response_words(totals, length) result(text)
     type(run_totals_t), intent(in) :: totals
     type(unit_t), intent(in) :: length
     character(len=:), allocatable :: text
@@ -86,7 +86,7 @@ contains
     if (totals%displacement >= 0.0_wp) text = text//", displacement "// &
       to_string(from_si(totals%displacement, length), digits)//" "//length%name
     if (len(text) > 0) text = "; largest"//text(2:)
-  end function response_part
+  end function response_words
 
   pure function torque_text(torque, unit) result(text)
     type(range_t), intent(in) :: torque !! [N m]

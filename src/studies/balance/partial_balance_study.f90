@@ -8,7 +8,7 @@ module partial_balance_study
   use balanced_linkages, only: balanced_linkage, counterweight_make_t, counterweight_t, &
     disc_diameter, own_inertia, radius_of
   use constants, only: pi
-  use counterweight_series, only: counterweight_on, unit_parts
+  use counterweight_series, only: counterweight_on, unit_forces
   use crank_cycle, only: cycle_t, drive_torque, parts_at, quantity_count, shaking_force, &
     shaking_moment, usual_values
   use errors, only: error_of_reach, error_t, set_error
@@ -207,21 +207,21 @@ contains
 
     type(counterweight_t), allocatable :: weights(:)
     type(vector_problem_t) :: problem
-    real(wp), allocatable :: parts(:, :, :, :), scale(:)
+    real(wp), allocatable :: forces(:, :, :, :), scale(:)
     real(wp) :: moment, length, row(4), rms(aim_count), radius(size(request%bodies))
     logical :: is_idle(size(request%bodies)), counted(aim_count)
     integer, allocatable :: kept(:)
     integer :: i, k, n, samples
 
     samples = size(given, 2)
-    allocate (weights(size(request%bodies)), parts(4, 3, size(request%bodies), samples))
+    allocate (weights(size(request%bodies)), forces(4, 3, size(request%bodies), samples))
     do i = 1, size(weights)
       weights(i) = counterweight_on(linkage, request%bodies(i))
       weights(i)%radius = request%radius(i)
       radius(i) = radius_of(weights(i), linkage%bodies(weights(i)%body))
     end do
     do i = 1, samples
-      call unit_parts(linkage, weights, 360.0_wp*real(i - 1, wp)/samples, parts(:, :, :, i))
+      call unit_forces(linkage, weights, 360.0_wp*real(i - 1, wp)/samples, forces(:, :, :, i))
     end do
     ! Unknowns are shares of the mass at the sum of the lengths.
     length = sum(linkage%bodies%length)
@@ -236,24 +236,24 @@ contains
     scale = [moment, moment, moment*length]
     do i = 1, samples
       do k = 1, 3
-        parts(:, k, :, i) = scale(k)*parts(:, k, :, i)*spread(row, 2, size(weights))
+        forces(:, k, :, i) = scale(k)*forces(:, k, :, i)*spread(row, 2, size(weights))
       end do
     end do
-    call find_idle(parts, is_idle)
+    call find_idle(forces, is_idle)
     found%idle = [found%idle, pack(request%bodies, is_idle)]
     kept = pack([(i, i=1, size(weights))], .not. is_idle)
     n = size(kept)
     if (n == 0) then
       ! Nothing helps: the sum is that without counterweights.
       found%minimum%value = sum((given*spread(row, 2, samples))**2)
-      found%minimum%is_least = norm2(parts(:, 3, :, :)) <= rounding*norm2(parts)
+      found%minimum%is_least = norm2(forces(:, 3, :, :)) <= rounding*norm2(forces)
       return
     end if
     allocate (problem%along(4*samples, 2*n), problem%by_length(4*samples, n))
     do i = 1, n
-      problem%along(:, 2*i - 1) = reshape(parts(:, 1, kept(i), :), [4*samples])
-      problem%along(:, 2*i) = reshape(parts(:, 2, kept(i), :), [4*samples])
-      problem%by_length(:, i) = reshape(parts(:, 3, kept(i), :), [4*samples])
+      problem%along(:, 2*i - 1) = reshape(forces(:, 1, kept(i), :), [4*samples])
+      problem%along(:, 2*i) = reshape(forces(:, 2, kept(i), :), [4*samples])
+      problem%by_length(:, i) = reshape(forces(:, 3, kept(i), :), [4*samples])
     end do
     problem%constant = reshape(given*spread(row, 2, samples), [4*samples])
     problem%jump = spread(request%make%inertia/(moment*length), 1, n)
@@ -284,19 +284,19 @@ contains
 
   !> Bodies whose counterweights do nothing for the aims, whichever their direction, or only what
   !! those of the bodies before them do as well.
-  pure subroutine find_idle(parts, is_idle)
-    real(wp), intent(in) :: parts(:, :, :, :) !! (4, 3, bodies, samples)
+  pure subroutine find_idle(forces, is_idle)
+    real(wp), intent(in) :: forces(:, :, :, :) !! (4, 3, bodies, samples)
     logical, intent(out) :: is_idle(:)        !! (bodies)
 
     real(wp), allocatable :: others(:, :), mine(:, :), longer(:, :)
     real(wp) :: usual
     integer :: i, rows
 
-    rows = size(parts, 1)*size(parts, 4)
-    usual = norm2(parts)
+    rows = size(forces, 1)*size(forces, 4)
+    usual = norm2(forces)
     allocate (others(rows, 0))
     do i = 1, size(is_idle)
-      mine = reshape([reshape(parts(:, 1, i, :), [rows]), reshape(parts(:, 2, i, :), [rows])], &
+      mine = reshape([reshape(forces(:, 1, i, :), [rows]), reshape(forces(:, 2, i, :), [rows])], &
         [rows, 2])
       is_idle(i) = any(norm2(mine, dim=1) <= rounding*usual) .or. .not. usual > 0.0_wp
       if (.not. is_idle(i)) is_idle(i) = .not. has_full_rank(mine, others)

@@ -127,10 +127,10 @@ contains
       do k = 1, case_count
         call take_forces(linkage, found%joints, loads%unit%of_case(k)%joints, found%force(:, :, &
           k, i))
-        associate (part => loads%unit%of_case(k))
-          found%drive(:, k, i) = drives_of(part%joints)
-          found%shaking(:, k, i) = [part%shaking_force, part%shaking_moment]
-          found%frame(:, k, i) = find_frame_load(linkage, state%pose, part%joints)
+        associate (of_case => loads%unit%of_case(k))
+          found%drive(:, k, i) = drives_of(of_case%joints)
+          found%shaking(:, k, i) = [of_case%shaking_force, of_case%shaking_moment]
+          found%frame(:, k, i) = find_frame_load(linkage, state%pose, of_case%joints)
         end associate
       end do
       call turn_guides(linkage, found%joints, state%pose%direction, found%force(:, :, :, i))
