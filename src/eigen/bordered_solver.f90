@@ -178,7 +178,7 @@ contains
       end do
       panel(m + n + 1, k) = right_side(first + k)
     end do
-    if (size(late) > 0) call take_out(pencil, b, late, panel)
+    if (size(late) > 0) call move_to_border(pencil, b, late, panel)
     call eliminate(panel(:m + n + 1, :m), m)
     small = 0
     do k = 1, m
@@ -196,7 +196,7 @@ contains
   end subroutine eliminate_block
 
   !> Moves own modes from a block to rows of the border; rows of the unit matrix keep their places.
-  pure subroutine take_out(pencil, b, late, panel)
+  pure subroutine move_to_border(pencil, b, late, panel)
     type(bordered_pencil_t), intent(in) :: pencil !! with a G
     integer, intent(in) :: b
     integer, intent(in) :: late(:)
@@ -218,7 +218,7 @@ contains
       panel(k:, k) = 0.0_wp
       panel(k, k) = 1.0_wp
     end do
-  end subroutine take_out
+  end subroutine move_to_border
 
   !> `L D Lᵀ` of the first m rows; the rows below are updated with them. Column k then holds that of
   !! `L D`.

@@ -14,19 +14,19 @@ module damped_count
   implicit none (type, external)
   private
 
-  public :: response_t, moment_count, count_in_disc
+  public :: damper_response_t, moment_count, count_in_disc
 
   integer, parameter :: moment_count = 4
 
   !> What the dampers are told by the modes, with √c in the rows of B.
-  type :: response_t
+  type :: damper_response_t
     real(wp), allocatable :: lambda(:)        !! (modes) known, among them all below `limit` [1/s²]
     real(wp), allocatable :: excitation(:, :) !! (dampers, modes) g of a mode with yᵀMy = 1 [1/√s]
     real(wp), allocatable :: moment(:, :, :)  !! (dampers, dampers, P) μ_p of all other modes
     real(wp), allocatable :: rounding(:, :)   !! (dampers, P) of the diagonals of the moments
     real(wp) :: shift = 0.0_wp                !! σ, such that all λ + σ are positive [1/s²]
     real(wp) :: limit = 0.0_wp                !! Λ [1/s²]
-  end type response_t
+  end type damper_response_t
 
   !> Steps along half the circle at most.
   integer, parameter :: most_steps = 20000
@@ -47,12 +47,12 @@ contains
   !! determinant is known at the end of the step without doubt. Roots come in conjugate pairs: half
   !! of the circle is enough.
   pure function count_in_disc(response, radius) result(number)
-    type(response_t), intent(in) :: response !! of these dampers
+    type(damper_response_t), intent(in) :: response !! of these dampers
     real(wp), intent(in) :: radius           !! [1/s]
     integer :: number
 
     real(wp) :: unit(size(response%excitation, 1))
-    type(response_t) :: scaled
+    type(damper_response_t) :: scaled
 
     number = -1
     if (response%limit <= radius**2) return
@@ -63,9 +63,9 @@ contains
   !> Multiplies H from both sides by a diagonal matrix, so that strong dampers and weak ones have
   !! entries of about 1.
   pure subroutine scale_dampers(response, radius, scaled, unit)
-    type(response_t), intent(in) :: response
+    type(damper_response_t), intent(in) :: response
     real(wp), intent(in) :: radius
-    type(response_t), intent(out) :: scaled
+    type(damper_response_t), intent(out) :: scaled
     real(wp), intent(out) :: unit(:) !! (dampers) what 1 becomes
 
     real(wp) :: factor
@@ -85,7 +85,7 @@ contains
 
   !> `count_in_disc` of scaled dampers.
   pure function turns_of(response, unit, radius) result(number)
-    type(response_t), intent(in) :: response
+    type(damper_response_t), intent(in) :: response
     real(wp), intent(in) :: unit(:)
     real(wp), intent(in) :: radius
     integer :: number
@@ -143,7 +143,7 @@ contains
 
   !> H, but for what the limit of the rest allows.
   pure function transfer_matrix(response, unit, s) result(h)
-    type(response_t), intent(in) :: response
+    type(damper_response_t), intent(in) :: response
     real(wp), intent(in) :: unit(:)
     complex(wp), intent(in) :: s
     complex(wp), dimension(size(response%excitation, 1), size(response%excitation, 1)) :: h
@@ -169,7 +169,7 @@ contains
 
   !> Sum of the magnitudes of the terms of H of known modes, but for the factor s.
   pure function terms(response, s)
-    type(response_t), intent(in) :: response
+    type(damper_response_t), intent(in) :: response
     complex(wp), intent(in) :: s
     real(wp) :: terms
 
@@ -185,7 +185,7 @@ contains
   !! `(λ − s²)/(s² + λ)²` of every known mode, and of the moments, times the length of the arc;
   !! negative where the arc may come to an undamped root.
   pure function change_bound(response, s, radius, length) result(bound)
-    type(response_t), intent(in) :: response
+    type(damper_response_t), intent(in) :: response
     complex(wp), intent(in) :: s   !! where it begins
     real(wp), intent(in) :: radius
     real(wp), intent(in) :: length
@@ -214,7 +214,7 @@ contains
 
   !> A bound of the trace of a moment.
   pure function trace(response, p)
-    type(response_t), intent(in) :: response
+    type(damper_response_t), intent(in) :: response
     integer, intent(in) :: p !! its number
     real(wp) :: trace
 

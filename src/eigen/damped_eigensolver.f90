@@ -8,7 +8,7 @@
 module damped_eigensolver
   use bordered_eigensolver, only: bordered_modes_t, find_bordered_modes, start_t
   use bordered_pencil, only: bordered_pencil_t
-  use damped_count, only: count_in_disc, response_t
+  use damped_count, only: count_in_disc, damper_response_t
   use damped_roots, only: bound_errors, damped_modes_t, new_root_list, root_list_t, same_root
   use damped_shapes, only: build_shapes, solve_reduced
   use damped_solver, only: damped_system_t
@@ -93,7 +93,7 @@ contains
     type(start_t) :: start
     real(wp), allocatable :: shapes(:, :)
     type(root_list_t) :: list
-    type(response_t) :: response
+    type(damper_response_t) :: response
     integer :: attempt, guards, known, number, proven
 
     guards = first_guards + size(system%dampers, 2)
@@ -151,7 +151,7 @@ contains
 
   !> Counts the roots in discs that hold those wanted, until one holds as many as are found there.
   subroutine count_roots(response, wanted, found, proven)
-    type(response_t), intent(in) :: response
+    type(damper_response_t), intent(in) :: response
     integer, intent(in) :: wanted
     type(damped_modes_t), intent(inout) :: found !! gets the radius of the disc
     integer, intent(out) :: proven               !! roots in the disc; 0: nothing is proven
@@ -240,7 +240,7 @@ contains
   !! modes.
   pure function widest_gap(low, high, response) result(radius)
     real(wp), intent(in) :: low, high !! [1/s]
-    type(response_t), intent(in) :: response
+    type(damper_response_t), intent(in) :: response
     real(wp) :: radius
 
     real(wp) :: mark(size(response%lambda) + 2), widest

@@ -4,7 +4,7 @@ module damped_shapes
   use bordered_matrix, only: bordered_times_vector
   use bordered_pencil, only: bordered_pencil_t, stiffness_times_vector
   use bordered_solver, only: solve_shifted
-  use damped_count, only: moment_count, response_t
+  use damped_count, only: damper_response_t, moment_count
   use damped_solver, only: damped_system_t
   use kinds, only: wp
   use lapack, only: dgeev, dgetrf, dgetrs
@@ -25,7 +25,7 @@ contains
     type(bordered_modes_t), intent(in) :: undamped
     integer, intent(in) :: known                    !! undamped modes that miss none
     real(wp), allocatable, intent(out) :: shapes(:, :) !! (unknowns, shapes)
-    type(response_t), intent(out) :: response       !! for the count of roots in a disc
+    type(damper_response_t), intent(out) :: response !! for the count of roots in a disc
 
     real(wp), dimension(system%pencil%layout%unknowns, size(system%dampers, 2)) :: first, second
     integer :: j, modes, number
@@ -58,7 +58,7 @@ contains
   subroutine find_moments(system, all_known, response, first, second)
     type(damped_system_t), intent(in) :: system
     logical, intent(in) :: all_known            !! there are no other modes
-    type(response_t), intent(inout) :: response !! with its modes and shift
+    type(damper_response_t), intent(inout) :: response !! with its modes and shift
     real(wp), intent(out) :: first(:, :)        !! (unknowns, dampers) displacements by forces
     real(wp), intent(out) :: second(:, :)       !! (unknowns, dampers) by the inertia of these
 

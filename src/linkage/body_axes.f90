@@ -6,12 +6,12 @@ module body_axes
   implicit none (type, external)
   private
 
-  public :: rebase, other_pin, has_pin
+  public :: choose_pins, other_pin, has_pin
 
 contains
 
   !> Chooses the first and the last pin of a body; its axes, and what is placed in them, turn.
-  pure subroutine rebase(linkage, body, first, last)
+  pure subroutine choose_pins(linkage, body, first, last)
     type(linkage_t), intent(inout) :: linkage !! bodies and sliders
     integer, intent(in) :: body               !! number, from 1
     integer, intent(in) :: first, last        !! two of its pins
@@ -62,7 +62,7 @@ contains
       if (linkage%turns(i)%against == body) linkage%turns(i)%relative = turned_back( &
         linkage%turns(i)%relative, axis)
     end do
-  end subroutine rebase
+  end subroutine choose_pins
 
   !> The pin of a body named first, but not a certain one.
   pure function other_pin(body, pin) result(other)

@@ -36,22 +36,22 @@ contains
     any_table = len_trim(table) == 0
     associate (found => variant%found)
       if (any_table .or. any(table == [character(len=9) :: "reactions", "bearings", "frame", &
-        "drives", "drive", "balance"])) call take(found%joints%lock)
-      if (any_table .or. table == "balance") call take(found%balance%balanced%lock)
-      if (any_table .or. table == "lagrange") call take(found%lagrange%lock)
-      if (any_table .or. table == "friction") call take(found%friction%lock)
+        "drives", "drive", "balance"])) call find_lock(found%joints%lock)
+      if (any_table .or. table == "balance") call find_lock(found%balance%balanced%lock)
+      if (any_table .or. table == "lagrange") call find_lock(found%lagrange%lock)
+      if (any_table .or. table == "friction") call find_lock(found%friction%lock)
     end associate
 
   contains
 
-    !> Takes the lock of a result, if there is none yet.
-    pure subroutine take(locks)
+    !> The lock of a result, if there is none yet.
+    pure subroutine find_lock(locks)
       type(lock_t), allocatable, intent(in) :: locks(:, :) !! (speeds, states)
 
       if (.not. allocated(locks) .or. lock%friction > 0) return
       if (speed > size(locks, 1)) return
       lock = locks(speed, variant%found%positions%state(position))
-    end subroutine take
+    end subroutine find_lock
 
   end function lock_at
 

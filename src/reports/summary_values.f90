@@ -64,7 +64,7 @@ contains
         do k = 1, speed_count(variant, summary%reports(q))
           do i = 1, positions
             call find_value(variant, summary%quantities(q), trim(summary%reports(q)), i, k, found)
-            call take(found, [i, k], values(q))
+            call add_value(found, [i, k], values(q))
             if (found%is_there) cycle
             ! Static frequencies are those of all speeds.
             if (speed_count(variant, summary%reports(q)) < speeds) lacks(i, :) = .true.
@@ -79,7 +79,7 @@ contains
   end subroutine find_summary
 
   !> Takes a value into a range, whose mean is the sum so far.
-  pure subroutine take(found, place, range)
+  pure subroutine add_value(found, place, range)
     type(value_t), intent(in) :: found
     integer, intent(in) :: place(2)
     type(summary_value_t), intent(inout) :: range
@@ -99,7 +99,7 @@ contains
     range%count = range%count + 1
     range%mean = range%mean + found%value
     range%error = max(range%error, found%error)
-  end subroutine take
+  end subroutine add_value
 
   !> Number of speeds of a report's table.
   pure function speed_count(variant, report) result(count)

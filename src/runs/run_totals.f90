@@ -8,13 +8,13 @@ module run_totals
   implicit none (type, external)
   private
 
-  public :: run_totals_t, add_totals, pass_totals, range_t, widen, is_empty
+  public :: run_totals_t, add_totals, pass_totals, value_range_t, widen, is_empty
 
   !> From the least to the greatest of some values; the other way round if there is none.
-  type :: range_t
+  type :: value_range_t
     real(wp) :: least = huge(1.0_wp)
     real(wp) :: most = -huge(1.0_wp)
-  end type range_t
+  end type value_range_t
 
   !> Sums over variants.
   type :: run_totals_t
@@ -28,9 +28,9 @@ module run_totals
     type(ledger_t) :: counts               !! of the work on frequencies
     real(wp) :: largest_error = -1.0_wp    !! largest estimated relative error of a frequency; below
                                            !! 0: no frequency found
-    type(range_t) :: lowest                !! the first frequency of every position and speed [Hz]
-    type(range_t) :: highest               !! the last one [Hz]
-    type(range_t) :: torque                !! driving torque, of REPORT reactions or balance
+    type(value_range_t) :: lowest          !! the first frequency of every position and speed [Hz]
+    type(value_range_t) :: highest         !! the last one [Hz]
+    type(value_range_t) :: torque          !! driving torque, of REPORT reactions or balance
                                            !! [N m]
     integer(long) :: response_speeds = 0_long !! at which an elastic response was sought
     integer(long) :: applications = 0_long !! of its equation
@@ -44,7 +44,7 @@ contains
 
   !> Takes a value into a range.
   pure subroutine widen(range, value)
-    type(range_t), intent(inout) :: range !! on return with the value
+    type(value_range_t), intent(inout) :: range !! on return with the value
     real(wp), intent(in) :: value         !! to take in
 
     range%least = min(range%least, value)
@@ -53,8 +53,8 @@ contains
 
   !> The range of two ranges.
   pure subroutine join_ranges(range, more)
-    type(range_t), intent(inout) :: range
-    type(range_t), intent(in) :: more
+    type(value_range_t), intent(inout) :: range
+    type(value_range_t), intent(in) :: more
 
     range%least = min(range%least, more%least)
     range%most = max(range%most, more%most)
@@ -62,7 +62,7 @@ contains
 
   !> Whether a range has no value.
   pure function is_empty(range) result(is)
-    type(range_t), intent(in) :: range !! of any values
+    type(value_range_t), intent(in) :: range !! of any values
     logical :: is
 
     is = range%least > range%most
@@ -119,7 +119,7 @@ contains
 
   pure subroutine pass_range(stream, range)
     type(byte_stream_t), intent(inout) :: stream
-    type(range_t), intent(inout) :: range
+    type(value_range_t), intent(inout) :: range
 
     call stream%pass(range%least)
     call stream%pass(range%most)

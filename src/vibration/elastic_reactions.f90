@@ -217,7 +217,8 @@ contains
     if (allocated(error)) return
     if (any(division%structure%load_elements > 0)) call load_nodes(division, at)
     do i = 1, case_count
-      call take(division, at, at%here%part_loads, at%here%part_forces, i, unit%of_case(i)%joints)
+      call find_case_forces(division, at, at%here%part_loads, at%here%part_forces, i, &
+        unit%of_case(i)%joints)
     end do
   end subroutine divide_by_elasticity
 
@@ -252,8 +253,8 @@ contains
     end associate
   end subroutine find_divided
 
-  !> Takes the forces in the joints of a load case.
-  pure subroutine take(division, at, loads, forces, case, joints, given, open)
+  !> The forces in the joints of a load case.
+  pure subroutine find_case_forces(division, at, loads, forces, case, joints, given, open)
     type(elastic_division_t), intent(in) :: division
     type(elastic_position_t), intent(in) :: at
     type(part_loads_t), intent(in) :: loads
@@ -265,10 +266,10 @@ contains
 
     call take_part_reactions(division%structure%linkage, at%here%elastic, at%here%model%links, &
       at%here%pose, loads, at%here%border, forces, case, joints, given, open)
-  end subroutine take
+  end subroutine find_case_forces
 
   !> The forces in the joints under other loads.
-  pure subroutine take_efforts(division, at, loads, joints)
+  pure subroutine find_effort_forces(division, at, loads, joints)
     type(elastic_division_t), intent(in) :: division
     type(elastic_position_t), intent(in) :: at
     type(part_loads_t), intent(in) :: loads
@@ -278,8 +279,8 @@ contains
 
     call find_part_forces(division%structure%linkage, at%here%elastic, at%here%model%links, &
       at%here%pose, loads, at%here%border, at%chords, forces)
-    call take(division, at, loads, forces, effort_case, joints)
-  end subroutine take_efforts
+    call find_case_forces(division, at, loads, forces, effort_case, joints)
+  end subroutine find_effort_forces
 
   !> Forces in the joints that balance the loads that depend on the speed, but for friction.
   pure subroutine divide_moving(division, at, coefficients, speed, joints)
@@ -306,7 +307,7 @@ contains
       loads = no_part_loads(at%here%elastic)
       call add_moving_efforts(linkage, at%pose, now, at%here%elastic, at%here%pose, loads)
     end associate
-    call take_efforts(division, at, loads, joints)
+    call find_effort_forces(division, at, loads, joints)
   end subroutine divide_moving
 
   !> Forces in the joints that balance an effort of one in each joint that rubs.
@@ -334,7 +335,7 @@ contains
         joints(k) = find_joint_forces(linkage, at%pose, body_load, pin_load)
         loads = no_part_loads(at%here%elastic)
         call add_friction_effort(linkage, at%pose, k, at%here%elastic, at%here%pose, loads)
-        call take_efforts(division, at, loads, joints(k))
+        call find_effort_forces(division, at, loads, joints(k))
       end do
     end associate
   end subroutine divide_friction
@@ -403,7 +404,7 @@ contains
       type(joint_forces_t) :: of_case
 
       of_case = no_joint_forces(division%structure%linkage)
-      call take(division, at, at%here%part_loads, at%here%part_forces, case, of_case)
+      call find_case_forces(division, at, at%here%part_loads, at%here%part_forces, case, of_case)
       call add_scaled(joints, 1.0_wp, of_case)
     end subroutine add_case
 
@@ -414,7 +415,7 @@ contains
       type(joint_forces_t) :: of_others
 
       of_others = no_joint_forces(division%structure%linkage)
-      call take_efforts(division, at, others, of_others)
+      call find_effort_forces(division, at, others, of_others)
       call add_scaled(joints, 1.0_wp, of_others)
     end subroutine add_efforts
 
@@ -442,7 +443,7 @@ contains
     forces%drive = 0.0_wp
     forces%constraint = 0.0_wp
     joints = no_joint_forces(division%structure%linkage)
-    call take(division, at, loads, forces, effort_case, joints, open=open)
+    call find_case_forces(division, at, loads, forces, effort_case, joints, open=open)
     associate (border => at%here%border)
       n = border%basis%idle_constraints
       allocate (states(n + size(open)), given(size(open)))
@@ -459,7 +460,7 @@ contains
           if (j > 0) forces%guide(k, effort_case) = -forces%constraint(j, effort_case)
         end do
         states(i) = no_joint_forces(division%structure%linkage)
-        call take(division, at, loads, forces, effort_case, states(i), given)
+        call find_case_forces(division, at, loads, forces, effort_case, states(i), given)
         call scale(border%numbers%size_of, states(i))
       end do
     end associate

@@ -121,7 +121,7 @@ contains
           r = i
         end do
         if (r == 0) exit
-        call take(r, work, is_used, is_taken, pivot, column, pivots)
+        call make_pivot(r, work, is_used, is_taken, pivot, column, pivots)
       end do
     end do
   end subroutine eliminate_largest
@@ -157,7 +157,7 @@ contains
         r = i
       end do
       if (r == 0) exit
-      call take(r, work, is_used, is_taken, pivot, column, pivots)
+      call make_pivot(r, work, is_used, is_taken, pivot, column, pivots)
     end do
     order = by_weight(rows%weight(primary))
     do k = 1, size(primary)
@@ -167,7 +167,7 @@ contains
         work = before
         return
       end if
-      call take(r, work, is_used, is_taken, pivot, column, pivots)
+      call make_pivot(r, work, is_used, is_taken, pivot, column, pivots)
       do i = constraints + 1, size(work, 2)
         if (is_used(i)) cycle
         if (abs(work(column(pivots), i))*scale(i)*rows%weight(i - constraints) <= &
@@ -189,7 +189,7 @@ contains
   end subroutine eliminate_given
 
   !> Makes a row the next pivot.
-  pure subroutine take(row, work, is_used, is_taken, pivot, column, pivots)
+  pure subroutine make_pivot(row, work, is_used, is_taken, pivot, column, pivots)
     integer, intent(in) :: row
     real(wp), intent(inout) :: work(:, :)
     logical, intent(inout) :: is_used(:), is_taken(:) !! rows, unknowns
@@ -208,7 +208,7 @@ contains
       if (maxval(abs(work(:, i)), mask=.not. is_taken) < round_off) work(:, i) = merge(work(:, i), &
         0.0_wp, is_taken)
     end do
-  end subroutine take
+  end subroutine make_pivot
 
   !> Numbers of the weights, the largest first.
   pure function by_weight(weight) result(order)

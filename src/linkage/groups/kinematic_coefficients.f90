@@ -152,18 +152,18 @@ contains
       if (group%equations(i)%kind == demand_drive) right(i) = right(i) + &
         rates(group%equations(i)%number)
     end do
-    call take(group, scales, solve(factor, right), coefficients%pin, coefficients%turn)
+    call store_derivatives(group, scales, solve(factor, right), coefficients%pin, coefficients%turn)
     if (.not. with_slopes) return
     do i = 1, size(group%equations)
       right(i) = -along(gradient(i), coefficients%pin_slope, coefficients%turn_slope) - &
         curvature_of(linkage, group%equations(i), pose, coefficients%turn, coefficients%pin)
     end do
-    call take(group, scales, solve(factor, right), coefficients%pin_slope, &
+    call store_derivatives(group, scales, solve(factor, right), coefficients%pin_slope, &
       coefficients%turn_slope)
   end subroutine move_group
 
   !> Puts derivatives of the unknowns of a group in their places.
-  pure subroutine take(group, scales, unknowns, pin, turn)
+  pure subroutine store_derivatives(group, scales, unknowns, pin, turn)
     type(group_t), intent(in) :: group
     real(wp), intent(in) :: scales(:)
     real(wp), intent(in) :: unknowns(:)
@@ -176,7 +176,7 @@ contains
       pin(:, group%pins(k)) = unknowns(2*k - 1:2*k)
     end do
     turn(group%bodies) = unknowns(2*size(group%pins) + 1:)/scales
-  end subroutine take
+  end subroutine store_derivatives
 
   !> A gradient times derivatives of pins and angles.
   pure function along(gradient, pin, turn) result(rate)

@@ -1,6 +1,6 @@
 !> Dyads that place a pin: two loci, circles about known pins or known lines.
 module plan_dyads
-  use body_axes, only: has_pin, rebase
+  use body_axes, only: choose_pins, has_pin
   use linkages, only: demand_angle, group_t, group_driven_dyad, group_dyad, group_on_line, &
     group_two_lines, linkage_t
   use plan_equations, only: length_drive, length_equation, line_equation, pin_equation
@@ -145,14 +145,14 @@ contains
     group%pins = [pin]
     group%bodies = [body]
     group%loaded = [body]
-    call rebase(linkage, body, group%base(1), pin)
+    call choose_pins(linkage, body, group%base(1), pin)
     allocate (group%equations(3))
     group%equations(1) = length_equation(linkage, body, pin)
     group%equations(2) = pin_equation(linkage, demand_angle, body, pin)
     group%equations(3) = line_equation(line)
     call choose_side(linkage, sides, group)
     done%slider(line) = .true.
-    call settle(linkage, group, done)
+    call record_dyad(linkage, group, done)
     call carry_rest(linkage, body, [pin], done)
   end subroutine place_on_line
 
@@ -177,14 +177,14 @@ contains
       group%base = group%base([2, 1])
     end if
     call choose_side(linkage, sides, group)
-    call rebase(linkage, group%body(1), group%base(1), pin)
+    call choose_pins(linkage, group%body(1), group%base(1), pin)
     if (any([(length_drive(linkage, bodies(k)) > 0, k=1, 2)])) then
-      call rebase(linkage, group%body(2), group%base(2), pin)
+      call choose_pins(linkage, group%body(2), group%base(2), pin)
       call write_driven_dyad(linkage, group)
     else
-      call rebase(linkage, group%body(2), pin, group%base(2))
+      call choose_pins(linkage, group%body(2), pin, group%base(2))
     end if
-    call settle(linkage, group, done)
+    call record_dyad(linkage, group, done)
     call carry_rest(linkage, group%body(1), [pin], done)
     call carry_rest(linkage, group%body(2), [pin, group%base(2)], done)
   end subroutine place_dyad
@@ -208,7 +208,7 @@ contains
   end subroutine write_driven_dyad
 
   !> The middle and the bodies of a dyad are placed, and its drives used.
-  pure subroutine settle(linkage, group, done)
+  pure subroutine record_dyad(linkage, group, done)
     type(linkage_t), intent(inout) :: linkage
     type(group_t), intent(in) :: group
     type(progress_t), intent(inout) :: done
@@ -225,6 +225,6 @@ contains
       if (drive > 0) done%drive(drive) = .true.
     end do
     call append_group(linkage, group)
-  end subroutine settle
+  end subroutine record_dyad
 
 end module plan_dyads

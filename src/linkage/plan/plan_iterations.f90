@@ -2,7 +2,7 @@
 !! strongly connected component that depends on nothing else is one. What cannot be matched tells
 !! which pins nothing holds.
 module plan_iterations
-  use body_axes, only: other_pin, rebase
+  use body_axes, only: choose_pins, other_pin
   use drawn_places, only: needed_places
   use group_equations, only: unknowns_of
   use linkages, only: demand_angle, demand_drive, demand_length, demand_line, demand_turn, &
@@ -36,7 +36,7 @@ contains
     integer, allocatable :: pins(:), bodies(:), component(:)
     integer :: i, np
 
-    call rebase_to_known_pins(linkage, done)
+    call choose_known_pins(linkage, done)
     pins = pack([(i, i=1, size(done%pin))], .not. done%pin)
     bodies = pack([(i, i=1, size(done%body))], .not. done%body)
     np = size(pins)
@@ -62,12 +62,12 @@ contains
       return
     end if
     allocate (group%equations(unknowns_of(group)))
-    call take_equations(equations, matching, component, np, group)
-    call settle(linkage, done, group)
+    call find_matched_equations(equations, matching, component, np, group)
+    call record_group(linkage, done, group)
   end subroutine take_rest
 
   !> Bodies with a pin that is placed are measured from it.
-  pure subroutine rebase_to_known_pins(linkage, done)
+  pure subroutine choose_known_pins(linkage, done)
     type(linkage_t), intent(inout) :: linkage
     type(progress_t), intent(in) :: done
 
@@ -76,9 +76,9 @@ contains
     do b = 1, size(linkage%bodies)
       if (done%body(b)) cycle
       pin = known_pin(linkage, b, done)
-      if (pin > 0) call rebase(linkage, b, pin, other_pin(linkage%bodies(b), pin))
+      if (pin > 0) call choose_pins(linkage, b, pin, other_pin(linkage%bodies(b), pin))
     end do
-  end subroutine rebase_to_known_pins
+  end subroutine choose_known_pins
 
   !> Pins and bodies whose unknowns no equation is left for, or could be left without one.
   pure function what_is_free(linkage, matching, pins, bodies) result(problem)
@@ -128,7 +128,7 @@ contains
   end function body_of
 
   !> The equations matched with the unknowns of a component.
-  pure subroutine take_equations(equations, matching, component, np, group)
+  pure subroutine find_matched_equations(equations, matching, component, np, group)
     type(equation_t), intent(in) :: equations(:)
     type(matching_t), intent(in) :: matching
     integer, intent(in) :: component(:)
@@ -148,11 +148,11 @@ contains
         filled = filled + 1
       end if
     end do
-  end subroutine take_equations
+  end subroutine find_matched_equations
 
   !> What a group for iterations uses and places. The further pins of its bodies are carried, and
   !! equations of pins that it has not used are redundancies.
-  pure subroutine settle(linkage, done, group)
+  pure subroutine record_group(linkage, done, group)
     type(linkage_t), intent(inout) :: linkage
     type(progress_t), intent(inout) :: done
     type(group_t), intent(in) :: group
@@ -176,7 +176,7 @@ contains
     do i = 1, size(group%bodies)
       call carry_rest(linkage, group%bodies(i), [integer ::], done)
     end do
-  end subroutine settle
+  end subroutine record_group
 
   !> All equations not used yet that have unknowns.
   pure subroutine open_equations(linkage, done, equations)

@@ -1,7 +1,7 @@
 !> Bodies whose own line passes through a pin that is placed: on a pin (RPR), or on a line without
 !! turning (PPR).
 module plan_sliding_bodies
-  use body_axes, only: has_pin, other_pin, rebase
+  use body_axes, only: choose_pins, has_pin, other_pin
   use kinds, only: wp
   use linkages, only: group_t, group_cross_slide, group_through_pin, linkage_t
   use plan_equations, only: line_equation, turn_equation
@@ -33,7 +33,7 @@ contains
       base = known_pin(linkage, body, done)
       if (base == 0) cycle
       other = other_pin(linkage%bodies(body), base)
-      call rebase(linkage, body, base, other)
+      call choose_pins(linkage, body, base, other)
       done%order = [done%order, body]
       group%kind = group_through_pin
       group%base(1) = base
@@ -77,7 +77,7 @@ contains
         do k = 1, size(linkage%sliders)
           if (done%slider(k) .or. linkage%sliders(k)%body /= body) cycle
           if (.not. done%pin(linkage%sliders(k)%pin)) cycle
-          call rebase(linkage, body, linkage%sliders(s)%pin, other_pin(linkage%bodies(body), &
+          call choose_pins(linkage, body, linkage%sliders(s)%pin, other_pin(linkage%bodies(body), &
             linkage%sliders(s)%pin))
           done%order = [done%order, body]
           group%kind = group_cross_slide

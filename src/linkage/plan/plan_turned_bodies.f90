@@ -1,7 +1,7 @@
 !> Groups with one place only: what drives move, what turns with another body, and bodies between
 !! two pins that are placed.
 module plan_turned_bodies
-  use body_axes, only: other_pin, rebase
+  use body_axes, only: choose_pins, other_pin
   use linkages, only: demand_angle, demand_length, drive_of_angle, drive_of_slider, equation_t, &
     group_t, group_placed, group_spanned, group_turned, linkage_t
   use plan_equations, only: append_equation, drive_equation, length_drive, is_used, &
@@ -31,7 +31,7 @@ contains
     pins = pins_of_body(linkage%bodies(crank))
     if (.not. any(linkage%is_ground(pins))) return
     pivot = pins(findloc(linkage%is_ground(pins), .true., dim=1))
-    call rebase(linkage, crank, pivot, other_pin(linkage%bodies(crank), pivot))
+    call choose_pins(linkage, crank, pivot, other_pin(linkage%bodies(crank), pivot))
     ! The linkage proper has its crank first; before it is put in order another body may be.
     linkage%has_crank = crank == 1
     done%drive(1) = .true.
@@ -95,7 +95,7 @@ contains
 
     pin = known_pin(linkage, body, done)
     if (pin == 0) return
-    call rebase(linkage, body, pin, other_pin(linkage%bodies(body), pin))
+    call choose_pins(linkage, body, pin, other_pin(linkage%bodies(body), pin))
     done%order = [done%order, body]
     call turn_body(linkage, body, equation, done)
     has_found = .true.
@@ -188,7 +188,7 @@ contains
       if (size(pins) < 2) cycle
       if (length_drive(linkage, b) > 0 .and. .not. all(done%pin([linkage%bodies(b)%first_pin, &
         linkage%bodies(b)%last_pin]))) cycle
-      call rebase(linkage, b, pins(1), pins(2))
+      call choose_pins(linkage, b, pins(1), pins(2))
       done%order = [done%order, b]
       group%kind = group_spanned
       group%base(1) = pins(1)

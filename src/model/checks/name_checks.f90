@@ -308,21 +308,21 @@ contains
       size(model%welds) + size(model%drives) + 3*size(model%branches)
     allocate (names(filled))
     filled = 0
-    call take(model%drawn_pins%pin, filled, names)
-    call take(model%points%name, filled, names)
-    call take(model%pin_masses%pin, filled, names)
-    call take(model%forces%pin, filled, names)
-    call take(subjects_of(model, .false.), filled, names)
-    call take(model%sliders%pin, filled, names)
-    call take(model%welds%pin, filled, names)
-    call take(model%drives%subject, filled, names)
-    call take(model%branches%pin, filled, names)
-    call take(model%branches%from, filled, names)
-    call take(model%branches%to, filled, names)
+    call append_texts(model%drawn_pins%pin, filled, names)
+    call append_texts(model%points%name, filled, names)
+    call append_texts(model%pin_masses%pin, filled, names)
+    call append_texts(model%forces%pin, filled, names)
+    call append_texts(subjects_of(model, .false.), filled, names)
+    call append_texts(model%sliders%pin, filled, names)
+    call append_texts(model%welds%pin, filled, names)
+    call append_texts(model%drives%subject, filled, names)
+    call append_texts(model%branches%pin, filled, names)
+    call append_texts(model%branches%from, filled, names)
+    call append_texts(model%branches%to, filled, names)
   end function names_on_other_cards
 
   !> Appends the texts of words.
-  pure subroutine take(words, filled, names)
+  pure subroutine append_texts(words, filled, names)
     type(token_t), intent(in) :: words(:)
     integer, intent(inout) :: filled !! names so far
     type(string_t), intent(inout) :: names(:)
@@ -333,7 +333,7 @@ contains
       filled = filled + 1
       names(filled)%text = words(n)%text
     end do
-  end subroutine take
+  end subroutine append_texts
 
   !> Names that a misspelt pin may stand for: all pins and ground pivots but itself. Empty for a
   !! deck with more than 100 of both.

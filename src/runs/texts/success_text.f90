@@ -3,7 +3,7 @@ module success_text
   use figures_command, only: shell_word
   use kinds, only: long, wp
   use output_units, only: output_units_t
-  use run_totals, only: is_empty, range_t, run_totals_t
+  use run_totals, only: is_empty, run_totals_t, value_range_t
   use text, only: plural, to_string
   use units, only: coherent_unit, dimension_length, from_si, unit_t
   implicit none (type, external)
@@ -66,7 +66,7 @@ contains
 
   !> `23.4 to 31.8 Hz`, or `23.4 Hz` if these are the same.
   pure function range_text(range, unit) result(text)
-    type(range_t), intent(in) :: range       !! not empty
+    type(value_range_t), intent(in) :: range !! not empty
     character(len=*), intent(in) :: unit     !! of its values
     character(len=:), allocatable :: text
 
@@ -89,11 +89,12 @@ contains
   end function response_words
 
   pure function torque_text(torque, unit) result(text)
-    type(range_t), intent(in) :: torque !! [N m]
+    type(value_range_t), intent(in) :: torque !! [N m]
     type(unit_t), intent(in) :: unit    !! of moments
     character(len=:), allocatable :: text
 
-    text = range_text(range_t(from_si(torque%least, unit), from_si(torque%most, unit)), unit%name)
+    text = range_text(value_range_t(from_si(torque%least, unit), from_si(torque%most, unit)), &
+      unit%name)
   end function torque_text
 
 end module success_text
