@@ -67,8 +67,8 @@ module bordered_eigensolver
   !> Relative distance of eigenvalues below which a mode is kept orthogonal to those found before.
   real(wp), parameter :: same_eigenvalue = 1.0e-3_wp
 
-  !> A start whose eigenvalue is below this share of those of modes that deform is that of a free
-  !! motion.
+  !> A start is a free motion where its eigenvalue is below this share of the eigenvalues of modes
+  !! that deform.
   real(wp), parameter :: same_zero = 1.0e-8_wp
 
   !> Rounding error of an eigenvalue, in units of ε times the terms that cancel in its Rayleigh

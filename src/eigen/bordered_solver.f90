@@ -16,11 +16,11 @@ contains
   !> Solves `(I + G − μ M) x = b`: eliminates each block together with its border rows and the
   !! right-hand side, then the border.
   !!
-  !! `L D Lᵀ` without pivoting, but that own modes with small pivots come last, with the border:
-  !! where μ is the eigenvalue of links with their border held and of the linkage as well (a bare
-  !! beam, hinged and free, has the frequencies of the beam clamped where it is hinged and hinged at
-  !! its free end), elimination would leave no digit. No result depends on its accuracy: the callers
-  !! measure the residual of the solution.
+  !! `L D Lᵀ` without pivoting, but own modes with small pivots come last, with the border: in their
+  !! places elimination would leave no digit. Pivots are small where μ is an eigenvalue of a link
+  !! with its border held and of the linkage, too: a beam that is hinged and free has the
+  !! frequencies of one that is clamped and hinged. No result depends on the accuracy of the
+  !! solution: the callers measure its residual.
   pure subroutine solve_shifted(pencil, shift, right_side, solution)
     type(bordered_pencil_t), intent(in) :: pencil !! G and M
     real(wp), intent(in) :: shift                 !! μ

@@ -161,11 +161,11 @@ contains
   !! proven to be so if its Cholesky factorization succeeds after a bound of the rounding has been
   !! subtracted from the diagonal, entry by entry (Demmel 1989; Rump 2006).
   !!
-  !! Only the lower own modes of every link need to be factored. On the higher ones, the tail, `K −
-  !! μM` is dominated by its diagonal: it is at least the diagonal D of what Gershgorin's circles
-  !! leave, and with B, what couples the tail to the rest, `A − B D⁻¹ Bᵀ > 0` proves that the whole
-  !! is positive. w_i is the part of M y_i outside the tail. Where that is too coarse, everything is
-  !! factored.
+  !! Only the lower own modes of every link need to be factored. On the higher ones, the tail, the
+  !! diagonal of `K − μM` dominates: by Gershgorin's circles the block of the tail is at least a
+  !! diagonal matrix D. With B, which couples the tail to the other unknowns, and their block A,
+  !! `A − B D⁻¹ Bᵀ > 0` proves that the whole matrix is positive definite. w_i are the entries of
+  !! M y_i outside the tail. Where this is too coarse, the whole matrix is factored.
   subroutine is_complete(pencil, limit, lambda, mass_times, proven)
     type(bordered_pencil_t), intent(in) :: pencil !! G and M
     real(wp), intent(in) :: limit                 !! μ [1/s²]

@@ -101,8 +101,8 @@ contains
       " sweeps of rotations")
   end subroutine rotate
 
-  !> Vectors near the right singular vectors: with `A P = Q R`, those of A are the left ones of
-  !! `P Rᵀ`, whose columns hold them once rotations have made these perpendicular.
+  !> Vectors near the right singular vectors. With `A P = Q R`, the right ones of A are the left
+  !! ones of `P Rᵀ`: its columns, once rotations have made them perpendicular.
   pure subroutine find_starts(matrix, rank, vectors, error)
     real(wp), intent(in) :: matrix(:, :)
     integer, intent(in) :: rank                         !! number of independent columns

@@ -168,9 +168,9 @@ contains
     end do
   end function names_for
 
-  !> Unit of a column. A quantity (`length`) has that of the deck's results. Numbers of other
-  !! columns are not converted: those of shapes, whose units are made of the deck's, those with a
-  !! unit for a word (`deg`), and speeds of the deck, which stand in the table as it gives them.
+  !> Unit of a column. A quantity (`length`) has the unit of the deck's results. Other columns are
+  !! not converted: shapes, in units made of the deck's; columns with a unit for a word (`deg`);
+  !! speeds, which stand as in the deck.
   pure function table_unit(word, outputs) result(measure)
     character(len=*), intent(in) :: word        !! from the table of reports
     type(output_units_t), intent(in) :: outputs !! units of the deck's results

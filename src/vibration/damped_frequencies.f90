@@ -37,10 +37,10 @@ contains
   !> Solves `(s² M + s C + K + K_G) y = 0` at a speed, with `C = Σ c b bᵀ`, b the velocity of a
   !! damper for unit velocities of the border, from the modes without dampers.
   !!
-  !! The error of a root is that of its matrices to first order, as it is of modes without dampers,
-  !! `Δs = −yᵀ(s² ΔM + s ΔC + ΔK) y/yᵀ(2sM + C)y`: the estimates of these errors for the real and
-  !! the imaginary part of y, as if they were modes of λ = |s|², and under loads also of −|s|², add
-  !! up to a bound of its numerator.
+  !! To first order an error of the matrices changes a root by
+  !! `Δs = −yᵀ(s² ΔM + s ΔC + ΔK) y/yᵀ(2sM + C)y`. The numerator is bounded by errors of modes
+  !! without dampers: the real and the imaginary part of y are taken for modes of λ = |s|², under
+  !! loads also of −|s|², and their estimated errors are added.
   !!
   !! Errors, in `result%outcome`: those of `find_damped_modes`.
   subroutine solve_damped_speed(structure, model, state, request, factor, speed, undamped, work, &

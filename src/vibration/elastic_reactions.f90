@@ -1,8 +1,8 @@
-!> Forces in the joints of linkages with more links than needed, which their elasticity divides.
+!> Forces in the joints of statically indeterminate linkages, by the elasticity of their links.
 !!
 !! The loads are those of statics: springs pull as they do at the position, and masses are where
-!! INERTIA puts them. What rigid links that hold each other share is open: these states of
-!! self-stress strain nothing.
+!! INERTIA puts them. States of self-stress of rigid links have no strain energy: the forces in them
+!! stay open.
 module elastic_reactions
   use acceleration_fields, only: point_acceleration
   use applied_loads, only: add_moving_loads, forced_places, has_moving_loads

@@ -1,13 +1,14 @@
 !> Axial force in every element, from the equilibrium of the part of the link beyond it.
 !!
-!! At a mass along the link, and at the place of a force, the axial force jumps. Jumps are kept
-!! apart from the smooth rest: each is a constant force from the first pin to the mass. When the
-!! cross-section that carries a mass at the offset e turns by θ, a force F across the link on it
-!! does the work `−½ F e θ²`, and the centrifugal forces about its own mass centre, whose moment of
-!! inertia is I, `−½ I ω² θ²`. This is kept as (F e + I ω²)/L, after the jumps.
+!! The axial force jumps at every mass along the link, and at the place of every force. A jump is
+!! kept as a constant force from the first pin to there, apart from the smooth rest. The
+!! cross-section that carries a mass at the offset e turns by θ: a force F across the link on the
+!! mass does the work `−½ F e θ²`. The centrifugal forces about its mass centre, with the moment of
+!! inertia I, do `−½ I ω² θ²`. Both are kept as (F e + I ω²)/L, after the jumps.
 !!
-!! For a rigid link only the mean matters. When the link turns by ψ, its dead loads F at places r do
-!! the work `−½ ψ² Σ F·r`, and `Σ F·r`, which for a slender link is `∫ N dx`, is L times that mean.
+!! Of a rigid link only the mean of the axial force is needed. When the link turns by ψ, dead loads
+!! F at places r do the work `−½ ψ² Σ F·r`. The mean is `Σ F·r/L`; of a slender link `Σ F·r` is
+!! `∫ N dx`.
 module axial_forces
   use acceleration_fields, only: acceleration_field_t, point_acceleration
   use beam_mesh, only: beam_mesh_t, element_count, element_length

@@ -1,21 +1,22 @@
-!> Component modes of a link: fixed-interface modes and constraint modes, once a run.
+!> Component modes of a link: fixed-interface modes and constraint modes, once a run (Craig and
+!! Bampton, AIAA J. 6 (1968) 1313, with all modes kept, so that nothing is left out).
 !!
-!! The displacement of a link is that of its chord, linear between the pins, and its own
-!! deformation, which vanishes at both ends. An end is pinned, or held: it turns with what is
-!! fastened to it. The curves that turn held ends against the chord, without loads between the ends,
-!! are kept apart, too: of one held end that with no moment at the other; of two the curve that
-!! turns both by the same angle, then the one that turns them by opposite angles. The own vibrations
-!! of the deformation, with the ends held, are the unknowns: mass and stiffness between them are
-!! diagonal and do not depend on the position. A position enters only through what the pins do
-!! (Craig and Bampton, AIAA J. 6 (1968) 1313, with all modes kept, so that nothing is left out).
+!! The displacement of a link is linear between the pins, as its chord moves, plus its own
+!! deformation, which vanishes at both ends. An end is pinned, or held: then it turns with what is
+!! fastened to it. The constraint modes turn held ends against the chord without loads between the
+!! ends. With one held end there is one, without a moment at the other end. With two held ends the
+!! first turns both by the same angle, the second by opposite angles.
 !!
-!! In the energy of a link the work of a moment at an end on a deformation is its product with the
-!! curve that this moment bends the link to: the rotations of the ends per unit of every unknown are
-!! these curves themselves, and what leaves a held end unturned is what is perpendicular to them.
+!! The own modes are the vibrations with the ends held. Mass and stiffness between them are diagonal
+!! and do not depend on the position, which enters only through the pins.
 !!
-!! A link vibrates across and along by itself, unless a mass beside its axis couples both: then its
-!! own modes are those of both together, and stand where the transverse ones do. So are those of a
-!! link with masses that have a moment of inertia of their own.
+!! The work of an end moment on a deformation is the product of the deformation with the curve that
+!! this moment causes. So these curves are also the rotations of the ends per unit of every unknown,
+!! and deformations perpendicular to them do not turn held ends.
+!!
+!! A link vibrates across and along independently, unless a mass beside its axis couples both. The
+!! own modes of a coupled link have both components, and stand in place of the transverse ones. A
+!! link with masses that have a moment of inertia of their own is coupled, too.
 module link_modes
   use deformation_places, only: displacement_row, slope_row
   use deformation_shapes, only: deformation_shapes_t

@@ -1,12 +1,12 @@
 !> Own modes of a link whose length changes, as the distance along a guide does, from those of the
 !! same link at another length.
 !!
-!! A uniform link that is slender, without masses along it, looks the same at any length: in its
-!! unknowns, coefficients of strains scaled to energy, curves and own modes do not change. With the
-!! length by a factor r a displacement across the link per unit of an unknown grows by r^(3/2), one
-!! along it and a slope by r^(1/2), the root of the mass and that of dx by r^(1/2): every table is a
-!! power of r times that of the other length. Shear, rotary inertia and masses bring in lengths that
-!! do not grow with the link.
+!! A slender uniform link without masses along it looks the same at any length: in its unknowns,
+!! which are coefficients of strains scaled to energy, curves and own modes do not change. Let the
+!! length change by the factor r. Then displacements across the link per unit of an unknown change
+!! by r^(3/2); displacements along it, slopes, and the roots of the mass and of dx change by
+!! r^(1/2). So every table changes by a power of r. Shear, rotary inertia and masses bring in
+!! lengths that do not grow with the link.
 module rescaled_links
   use deformation_shapes, only: deformation_shapes_t
   use kinds, only: wp

@@ -1,9 +1,9 @@
-!> Couples between links that turn together, from the equilibrium of moments: of the end of a link
-!! that bends, of a rigid link as a whole.
+!> Couples between links that turn together, from the equilibrium of moments at the end of a link
+!! that bends, or on a rigid link as a whole.
 !!
-!! The moments that couples put on an end are known together. Where it has but one that is unknown
-!! yet, that follows, and loads the end on its other side. Where ends hold each other all the way
-!! round, one couple stays indeterminate.
+!! Equilibrium gives the sum of the couples on an end. Where one of them is unknown it follows, and
+!! is then known on the other link. Where ends hold each other in a closed chain, one couple stays
+!! indeterminate.
 module part_couples
   use drive_rates, only: is_joint
   use elastic_linkages, only: elastic_linkage_t, spring_t

@@ -1,10 +1,10 @@
-!> Forces in the parts of a linkage by its elasticity, whether statics alone determines them or not.
+!> Forces in the parts of a linkage by its elasticity, whether it is statically determinate or not.
 !!
-!! The stiffness is the unit matrix: the border unknowns of the static solution are the work that
-!! the loads do on their displacements, `z = Sᵀ f`, and `y = Q z` are the forces in parts and
-!! springs. The force in a constraint is the work on what violates it, less that of the parts and
-!! springs that this strains. Free drives act as loads, with the torque or force that the
-!! motion needs.
+!! The stiffness is the unit matrix. So the border unknowns of the static solution are the work of
+!! the loads on unit border displacements, `z = Sᵀ f`, and `y = Q z` are the forces in parts and
+!! springs. The force in a constraint is the work of the loads on a displacement that violates it,
+!! less the work of the parts and springs that this strains. Free drives act as loads: the torque or
+!! force that the motion needs.
 module part_forces
   use axial_forces, only: lump_functions, most_lump_functions
   use border_loads, only: border_work, own_work

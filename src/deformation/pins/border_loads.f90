@@ -126,8 +126,8 @@ contains
     if (has) has = size(body%forced) > 0
   end function has_forces
 
-  !> Adds the work that forces at places of a link do on the border, beside that of their moments
-  !! about its first pin as the chord turns, which is among the torques.
+  !> Adds the work of forces at places of a link on the border displacements. The work of their
+  !! moments about the first pin, as the chord turns, is left out: it is in that of the torques.
   pure subroutine add_place_forces(linkage, link, body, chords, pose, case, border)
     type(linkage_t), intent(in) :: linkage
     type(link_modes_t), intent(in) :: link

@@ -9,10 +9,11 @@ module starting_linkages
 
   public :: starting_linkage, starting_speed
 
-  !> Of the first drive: its square, and with it all inertia loads, is nothing [rad/s] or [m/s].
+  !> Speed of the first drive whose square is nothing, and with it all inertia loads [rad/s] or
+  !! [m/s].
   real(wp), parameter :: starting_speed = 1.0e-150_wp
 
-  !> Rates below this share of that of the drive are rounding, and those of joints that stand still.
+  !> A joint stands still where its rate is below this share of the drive's: it is rounding.
   real(wp), parameter :: rounding = 1.0e-12_wp
 
 contains

@@ -127,8 +127,8 @@ contains
     found%diameter = [found%diameter, alone%diameter]
   end subroutine balance_crank
 
-  !> Shaking force, moment and torque of the given linkage at ω2 = 1, over a turn with so many
-  !! samples that neither its spectra nor those with heavy counterweights change with more.
+  !> Shaking force, moment and torque of the given linkage at ω2 = 1, over a turn. There are enough
+  !! samples for its spectra, and for the spectra with heavy counterweights, to have converged.
   subroutine sample_given(request, linkage, elements, threads, given)
     type(balance_request_t), intent(in) :: request
     type(linkage_t), intent(in) :: linkage
@@ -282,8 +282,8 @@ contains
     end do
   end subroutine minimise
 
-  !> Bodies whose counterweights do nothing for the aims, whichever their direction, or only what
-  !! those of the bodies before them do as well.
+  !> Bodies whose counterweights are of no use to the aims: in any direction they change nothing, or
+  !! only what counterweights on the bodies before them change as well.
   pure subroutine find_idle(forces, is_idle)
     real(wp), intent(in) :: forces(:, :, :, :) !! (4, 3, bodies, samples)
     logical, intent(out) :: is_idle(:)        !! (bodies)

@@ -20,12 +20,12 @@ module settled_cycles
 
 contains
 
-  !> Doubles the number of samples of a cycle until harmonics, mean and rms of all quantities agree
-  !! with those from every second sample to 1e-13 of the largest value, or until there are 65,536
-  !! samples a turn. A cycle without values at a sample has an error.
+  !> Doubles the number of samples of a cycle until harmonics, mean and rms of all quantities have
+  !! converged: with every second sample they are the same to 1e-13 of the largest value. It ends at
+  !! 65,536 samples a turn. A cycle without values at a sample has an error.
   !!
   !! Harmonics converge like a geometric series, the slower the nearer the crank passes a dead
-  !! point; the error with all samples is about the square of the error with half of them. Many
+  !! point. The error with all samples is about the square of the error with half of them. Many
   !! speeds next to a dead point take minutes; an interrupted run returns what it has.
   subroutine find_settled_cycles(linkages, elements, speed, acceleration, threads, turns, change, &
       period)

@@ -16,8 +16,8 @@ module four_bar_reactions
 
 contains
 
-  !> Reactions at a speed, Ulker 2010 (2.47) to (2.49): ω2² and α2 times those of the unit loads,
-  !! plus those of the constant loads and of what the speed adds [N, N m].
+  !> Reactions at a speed, Ulker 2010 (2.47) to (2.49): under the unit loads times ω2² and α2, under
+  !! the constant loads, and under loads that depend on the speed [N, N m].
   pure function reactions_at_speed(four_bar, found, state, speed, acceleration, number) &
     result(values)
     type(four_bar_t), intent(in) :: four_bar   !! that the linkage is

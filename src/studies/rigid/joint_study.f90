@@ -36,8 +36,8 @@ module joint_study
     integer :: slider = 0 !! whose force it is; 0: that of the pin
   end type joint_t
 
-  !> Forces of the three unit loads, of which those at any speed are composed, and what loads that
-  !! depend on the speed add to them; zeros where there is no pose.
+  !> Forces under the three unit loads, and what loads that depend on the speed add to them. The
+  !! forces at any speed are sums of these. Zeros where there is no pose.
   type :: joints_result_t
     type(joint_t), allocatable :: joints(:)    !! pins in their order, then sliders
     real(wp), allocatable :: force(:, :, :, :) !! (3, joints, cases, states) fx, fy, moment [N, N m]
@@ -276,9 +276,9 @@ contains
     if (allocated(forces%friction)) call take_friction(linkage, joints, forces%friction, values_of)
   end subroutine take_forces
 
-  !> Adds what rubs: along the line of a slider, and couples of a pin to the moments on both of its
-  !! links, or on a link and on the block on which it turns, which the body of the line or the guide
-  !! bears; a ground pivot has no row.
+  !> Adds friction: a force along the line of a slider; a couple in a pin, to the moments on both of
+  !! its links. Where a pin turns on a block, the couple acts on the link and on the body that bears
+  !! the block: that of the line, or the guide. A ground pivot has no row.
   pure subroutine take_friction(linkage, joints, effort, values_of)
     type(linkage_t), intent(in) :: linkage
     type(joint_t), intent(in) :: joints(:)
@@ -351,8 +351,8 @@ contains
     end do
   end subroutine add_blocks
 
-  !> Force and moment of every joint at a speed: ω2² and α2 times those of the unit loads, plus
-  !! those of the constant loads and of what the speed adds.
+  !> Force and moment of every joint at a speed: under the unit loads times ω2² and α2, under the
+  !! constant loads, and under loads that depend on the speed.
   pure function joints_at_speed(found, state, speed, acceleration, number) result(forces)
     type(joints_result_t), intent(in) :: found !! for all positions
     integer, intent(in) :: state               !! number; with a pose

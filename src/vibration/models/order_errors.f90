@@ -12,13 +12,15 @@ module order_errors
 
   public :: order_error, with_modes_above
 
-  !> The change made by the next orders, and what their series leaves, is multiplied by
-  !! `order_margin`. Where the change of the eigenvalue is above
-  !! `rough_change` it is no longer small beside the distances of eigenvalues, and where the matrix
-  !! of the next orders is not definite, orders are far too low (a link compressed so hard that it
-  !! buckles many times over): larger margins are used instead.
-  real(wp), parameter :: order_margin = 1.5_wp, rough_margin = 4.0_wp, rough_change = 1.0e-4_wp, &
-    indefinite_margin = 16.0_wp
+  !> Safety factors of the estimated change by all higher orders.
+  real(wp), parameter :: order_margin = 1.5_wp       !! as a rule
+  real(wp), parameter :: rough_margin = 4.0_wp       !! where the change is above `rough_change`
+  real(wp), parameter :: indefinite_margin = 16.0_wp !! where the matrix of the next orders is not
+                                                     !! definite: orders are far too low, as in a
+                                                     !! link compressed far beyond buckling
+
+  !> A greater relative change is not small beside the distances of eigenvalues.
+  real(wp), parameter :: rough_change = 1.0e-4_wp
 
   !> What a pair of orders changes is a share of what the pair before does. The orders beyond are
   !! taken for a geometric series of this ratio, which is limited to `most_ratio`.

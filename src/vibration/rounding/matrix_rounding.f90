@@ -20,8 +20,8 @@ module matrix_rounding
   !! quadruple precision.
   real(wp), parameter :: multiple = 2.0_wp
 
-  !> So many times more in the mass of a link with masses: of what couples its own modes only the
-  !! diagonal is kept, and the rest, which is rounding, shows where one of them moves a million
+  !> The same in the mass matrix of a link with masses, as a multiple. Only the diagonal of its own
+  !! modes is kept: entries beside it are rounding, which shows where one own mode moves a million
   !! times the mass of the others. Measured: 2.3 times.
   real(wp), parameter :: multiple_of_lumps = 4.0_wp
 
