@@ -29,6 +29,15 @@ module moving_integrals
     real(wp), allocatable :: at_mass(:, :) !! (functions, masses) of a coupled link: m v at each
   end type moving_integrals_t
 
+  !> All functions of a link that bends, in coefficients in which integrals of products are scalar
+  !! products of columns: displacements of elements, then of masses.
+  type :: beam_functions_t
+    real(wp), allocatable :: across(:, :) !! (rows, functions) v
+    real(wp), allocatable :: along(:, :)  !! (rows, functions) u
+    real(wp), allocatable :: spin(:, :)   !! (rows, functions) rotations of cross-sections, then of
+                                          !! masses with a moment of inertia
+  end type beam_functions_t
+
 contains
 
   !> Number of functions of the chord of a link.
@@ -72,90 +81,30 @@ contains
     integrals%rotary(3, 3) = body%rotary_inertia*body%length
   end function integrals_of_rigid_link
 
-  !> In scaled coefficients integrals of products are scalar products: of displacements across (v),
-  !! along (u), rotations of cross-sections (turns), and of the same at masses.
+  !> Integrals of products are scalar products of the columns of `beam_functions_t`.
   pure function integrals_of_beam(body, link) result(integrals)
     type(body_t), intent(in) :: body
     type(link_modes_t), intent(in) :: link
     type(moving_integrals_t) :: integrals
 
-    type(lump_arms_t) :: arms
-    real(wp), allocatable :: v(:, :), u(:, :), spin(:, :), shape(:, :), shape_along(:, :)
-    integer :: curves, kept, kept_along, all_functions, coefficients, rows, e, i, first, lumps, &
-      turning, across_rows, along_rows, own_first, along_first
+    type(beam_functions_t) :: functions
+    integer :: all_functions, i, lumps, rows
 
-    associate (bending => link%bending_shapes, axial => link%axial_shapes)
-      integrals%chord = chord_functions(link)
-      curves = link%curves
-      integrals%own = link%modes + link%axial_modes
-      all_functions = integrals%chord + integrals%own
-      kept = size(link%bending, 1)
-      kept_along = size(link%axial, 1)
-      own_first = integrals%chord + 1
-      along_first = own_first
-      if (.not. link%coupled) along_first = own_first + link%modes
-      lumps = bending%lumps
-      turning = bending%turning_lumps
-      coefficients = max(bending%coefficients, axial%coefficients)
-      rows = coefficients*bending%elements
-      allocate (v(rows + lumps, all_functions), u(rows + lumps, all_functions))
-      allocate (spin(bending%rotations*bending%elements + turning, all_functions))
-      v = 0.0_wp
-      u = 0.0_wp
-      spin = 0.0_wp
-      shape = matmul(bending%displacement(:, :kept), link%bending)
-      shape_along = matmul(axial%displacement(:, :kept_along), link%axial)
-      across_rows = bending%coefficients
-      along_rows = axial%coefficients
-      do e = 1, bending%elements
-        associate (to => (e - 1)*coefficients, from => (e - 1)*across_rows, &
-          from_along => (e - 1)*along_rows)
-          v(to + 1:to + across_rows, 1:2) = bending%linear(from + 1:from + across_rows, :)
-          v(to + 1:to + across_rows, 3:2 + curves) = shape(from + 1:from + across_rows, :curves)
-          v(to + 1:to + across_rows, own_first:own_first + link%modes - 1) = &
-            shape(from + 1:from + across_rows, curves + 1:)
-          u(to + 1:to + along_rows, curves + 3:curves + 4) = &
-            axial%linear(from_along + 1:from_along + along_rows, :)
-          u(to + 1:to + along_rows, along_first:along_first + size(shape_along, 2) - 1) = &
-            shape_along(from_along + 1:from_along + along_rows, :)
-        end associate
-      end do
-      first = rows_before_lumps(bending)
-      if (bending%rotations > 0) then
-        i = across_rows*bending%elements
-        call copy_across(spin(:first - i, :), i)
-      end if
-      call copy_across(spin(first - across_rows*bending%elements + 1:, :), first + lumps)
-      call copy_across(v(rows + 1:, :), first)
-      i = along_rows*axial%elements
-      u(rows + 1:, curves + 3:curves + 4) = axial%linear(i + 1:, :)
-      u(rows + 1:, along_first:along_first + size(shape_along, 2) - 1) = shape_along(i + 1:, :)
-      if (link%coupled) then
-        arms = new_lump_arms(body, bending)
-        u(rows + 1:, 1:2) = u(rows + 1:, 1:2) + arms%linear
-        shape = matmul(arms%displacement(:, :kept), link%bending)
-        u(rows + 1:, 3:2 + curves) = u(rows + 1:, 3:2 + curves) + shape(:, :curves)
-        u(rows + 1:, own_first:own_first + link%modes - 1) = u(rows + 1:, &
-          own_first:own_first + link%modes - 1) + shape(:, curves + 1:)
-      end if
+    integrals%chord = chord_functions(link)
+    integrals%own = link%modes + link%axial_modes
+    all_functions = integrals%chord + integrals%own
+    functions = new_beam_functions(body, link, integrals%chord, all_functions)
+    associate (v => functions%across, u => functions%along, spin => functions%spin)
       integrals%mass = matmul(transpose(v), v) + matmul(transpose(u), u) + &
         matmul(transpose(spin), spin)
       integrals%swap = matmul(transpose(v), u)
       integrals%swap = integrals%swap - transpose(integrals%swap)
-      rows = bending%rotations*bending%elements
+      rows = link%bending_shapes%rotations*link%bending_shapes%elements
       allocate (integrals%rotary(merge(all_functions, 0, rows > 0), merge(all_functions, 0, &
         rows > 0)))
       if (rows > 0) integrals%rotary = matmul(transpose(spin(:rows, :)), spin(:rows, :))
-      ! The own modes are orthogonal: set exactly.
-      do i = 1, integrals%own
-        integrals%mass(own_first:, integrals%chord + i) = 0.0_wp
-        if (i <= link%modes) then
-          integrals%mass(integrals%chord + i, integrals%chord + i) = link%square(i)
-        else
-          integrals%mass(integrals%chord + i, integrals%chord + i) = &
-            link%axial_square(i - link%modes)
-        end if
-      end do
+      call set_own(link, integrals)
+      lumps = link%bending_shapes%lumps
       allocate (integrals%at_mass(all_functions, merge(lumps, 0, link%coupled)))
       do i = 1, size(integrals%at_mass, 2)
         ! The root of every mass is in its row: 1 − ξ and ξ add up to it.
@@ -164,24 +113,140 @@ contains
         end associate
       end do
     end associate
-
-  contains
-
-    !> Rows of functions across the link, from those of the shapes after `before`.
-    pure subroutine copy_across(rows_of, before)
-      real(wp), intent(inout) :: rows_of(:, :)
-      integer, intent(in) :: before
-
-      integer :: n
-
-      n = size(rows_of, 1)
-      associate (from => link%bending_shapes%linear)
-        rows_of(:, 1:2) = from(before + 1:before + n, :)
-      end associate
-      rows_of(:, 3:2 + curves) = shape(before + 1:before + n, :curves)
-      rows_of(:, own_first:own_first + link%modes - 1) = shape(before + 1:before + n, curves + 1:)
-    end subroutine copy_across
-
   end function integrals_of_beam
+
+  !> The own modes are orthogonal: their masses are set exactly.
+  pure subroutine set_own(link, integrals)
+    type(link_modes_t), intent(in) :: link
+    type(moving_integrals_t), intent(inout) :: integrals
+
+    integer :: i
+
+    do i = 1, integrals%own
+      integrals%mass(integrals%chord + 1:, integrals%chord + i) = 0.0_wp
+      if (i <= link%modes) then
+        integrals%mass(integrals%chord + i, integrals%chord + i) = link%square(i)
+      else
+        integrals%mass(integrals%chord + i, integrals%chord + i) = &
+          link%axial_square(i - link%modes)
+      end if
+    end do
+  end subroutine set_own
+
+  !> All functions of a link that bends.
+  pure function new_beam_functions(body, link, chord, number) result(functions)
+    type(body_t), intent(in) :: body
+    type(link_modes_t), intent(in) :: link
+    integer, intent(in) :: chord, number !! functions of the chord; all functions
+    type(beam_functions_t) :: functions
+
+    real(wp), allocatable :: shape(:, :)
+    integer :: before, first, own, rows
+
+    own = chord + 1
+    shape = matmul(link%bending_shapes%displacement(:, :size(link%bending, 1)), link%bending)
+    associate (bending => link%bending_shapes)
+      rows = max(bending%coefficients, link%axial_shapes%coefficients)*bending%elements
+      allocate (functions%across(rows + bending%lumps, number), &
+        functions%along(rows + bending%lumps, number), &
+        functions%spin(bending%rotations*bending%elements + bending%turning_lumps, number))
+    end associate
+    associate (bending => link%bending_shapes, v => functions%across, u => functions%along, &
+        spin => functions%spin)
+      v = 0.0_wp
+      u = 0.0_wp
+      spin = 0.0_wp
+      call copy_elements(link, shape, own, v)
+      call copy_along(link, merge(own, own + link%modes, link%coupled), rows, u)
+      first = rows_before_lumps(bending)
+      before = bending%coefficients*bending%elements
+      if (bending%rotations > 0) call copy_across(link, shape, own, before, &
+        spin(:first - before, :))
+      call copy_across(link, shape, own, first + bending%lumps, spin(first - before + 1:, :))
+      call copy_across(link, shape, own, first, v(rows + 1:, :))
+      if (link%coupled) call add_arms(body, link, own, u(rows + 1:, :))
+    end associate
+  end function new_beam_functions
+
+  !> Displacements of elements across the link.
+  pure subroutine copy_elements(link, shape, own, v)
+    type(link_modes_t), intent(in) :: link
+    real(wp), intent(in) :: shape(:, :)  !! (rows of `bending_shapes`, curves, then own modes)
+    integer, intent(in) :: own           !! number of the first own mode
+    real(wp), intent(inout) :: v(:, :)   !! (rows, functions)
+
+    integer :: e, rows, stride
+
+    rows = link%bending_shapes%coefficients
+    stride = max(rows, link%axial_shapes%coefficients)
+    do e = 1, link%bending_shapes%elements
+      call copy_across(link, shape, own, (e - 1)*rows, v((e - 1)*stride + 1:(e - 1)*stride + rows, &
+        :))
+    end do
+  end subroutine copy_elements
+
+  !> Displacements along the link: of elements, then of masses.
+  pure subroutine copy_along(link, first, before_masses, u)
+    type(link_modes_t), intent(in) :: link
+    integer, intent(in) :: first         !! number of the first function of own modes along the link
+    integer, intent(in) :: before_masses !! rows of all elements
+    real(wp), intent(inout) :: u(:, :)   !! (rows, functions)
+
+    real(wp), allocatable :: shape(:, :)
+    integer :: e, curves, last, rows, stride
+
+    associate (axial => link%axial_shapes)
+      shape = matmul(axial%displacement(:, :size(link%axial, 1)), link%axial)
+      curves = link%curves
+      last = first + size(shape, 2) - 1
+      rows = axial%coefficients
+      stride = max(rows, link%bending_shapes%coefficients)
+      do e = 1, link%bending_shapes%elements
+        associate (to => (e - 1)*stride, from => (e - 1)*rows)
+          u(to + 1:to + rows, curves + 3:curves + 4) = axial%linear(from + 1:from + rows, :)
+          u(to + 1:to + rows, first:last) = shape(from + 1:from + rows, :)
+        end associate
+      end do
+      e = rows*axial%elements
+      u(before_masses + 1:, curves + 3:curves + 4) = axial%linear(e + 1:, :)
+      u(before_masses + 1:, first:last) = shape(e + 1:, :)
+    end associate
+  end subroutine copy_along
+
+  !> Rows of functions across the link, from those of the shapes after `before`.
+  pure subroutine copy_across(link, shape, own, before, rows)
+    type(link_modes_t), intent(in) :: link
+    real(wp), intent(in) :: shape(:, :)    !! (rows of `bending_shapes`, curves, then own modes)
+    integer, intent(in) :: own             !! number of the first own mode
+    integer, intent(in) :: before
+    real(wp), intent(inout) :: rows(:, :)  !! (rows, functions)
+
+    integer :: curves, n
+
+    curves = link%curves
+    n = size(rows, 1)
+    rows(:, 1:2) = link%bending_shapes%linear(before + 1:before + n, :)
+    rows(:, 3:2 + curves) = shape(before + 1:before + n, :curves)
+    rows(:, own:own + link%modes - 1) = shape(before + 1:before + n, curves + 1:)
+  end subroutine copy_across
+
+  !> Masses beside the axis of a link move along it as the link bends.
+  pure subroutine add_arms(body, link, own, u)
+    type(body_t), intent(in) :: body
+    type(link_modes_t), intent(in) :: link
+    integer, intent(in) :: own         !! number of the first own mode
+    real(wp), intent(inout) :: u(:, :) !! (masses, functions)
+
+    type(lump_arms_t) :: arms
+    real(wp), allocatable :: shape(:, :)
+    integer :: last
+
+    arms = new_lump_arms(body, link%bending_shapes)
+    u(:, 1:2) = u(:, 1:2) + arms%linear
+    shape = matmul(arms%displacement(:, :size(link%bending, 1)), link%bending)
+    u(:, 3:2 + link%curves) = u(:, 3:2 + link%curves) + shape(:, :link%curves)
+    last = own + link%modes - 1
+    u(:, own:last) = u(:, own:last) + shape(:, link%curves + 1:)
+  end subroutine add_arms
 
 end module moving_integrals

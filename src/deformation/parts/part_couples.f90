@@ -67,9 +67,9 @@ contains
       do i = 1, size(is_known)
         do k = 1, 2
           if (is_known(i) .or. ends(k, i)%body == 0) cycle
-          if (others_unknown(ends(k, i), i)) cycle
+          if (others_unknown(ends, is_known, k, i)) cycle
           joints%couple(i) = merge(1.0_wp, -1.0_wp, k == 1)*(ends(k, i)%moment - &
-            moment_of_others(ends(k, i), i))
+            moment_of_others(ends, joints%couple, k, i))
           is_known(i) = .true.
           is_new = .true.
         end do
@@ -105,38 +105,41 @@ contains
         joints)
     end function turned_end
 
-    !> Whether another unknown couple acts on the end of a turn.
-    pure function others_unknown(end, number) result(are)
-      type(turned_end_t), intent(in) :: end
-      integer, intent(in) :: number
-      logical :: are
-
-      integer :: j
-
-      are = .false.
-      do j = 1, size(is_known)
-        if (j == number .or. is_known(j)) cycle
-        are = are .or. is_same(end, ends(1, j)) .or. is_same(end, ends(2, j))
-      end do
-    end function others_unknown
-
-    !> Moment of the other couples on the end of a turn.
-    pure function moment_of_others(end, number) result(moment)
-      type(turned_end_t), intent(in) :: end
-      integer, intent(in) :: number
-      real(wp) :: moment
-
-      integer :: j
-
-      moment = 0.0_wp
-      do j = 1, size(is_known)
-        if (j == number) cycle
-        if (is_same(end, ends(1, j))) moment = moment + joints%couple(j)
-        if (is_same(end, ends(2, j))) moment = moment - joints%couple(j)
-      end do
-    end function moment_of_others
-
   end subroutine find_part_couples
+
+  !> Whether another unknown couple acts on an end of a turn.
+  pure function others_unknown(ends, is_known, end, number) result(are)
+    type(turned_end_t), intent(in) :: ends(:, :) !! (2, turns)
+    logical, intent(in) :: is_known(:)           !! (turns) their couples
+    integer, intent(in) :: end, number           !! 1 or 2; number of the turn
+    logical :: are
+
+    integer :: j
+
+    are = .false.
+    do j = 1, size(is_known)
+      if (j == number .or. is_known(j)) cycle
+      are = are .or. is_same(ends(end, number), ends(1, j)) .or. &
+        is_same(ends(end, number), ends(2, j))
+    end do
+  end function others_unknown
+
+  !> Moment of the other couples on an end of a turn [N m].
+  pure function moment_of_others(ends, couple, end, number) result(moment)
+    type(turned_end_t), intent(in) :: ends(:, :) !! (2, turns)
+    real(wp), intent(in) :: couple(:)            !! (turns) [N m]
+    integer, intent(in) :: end, number           !! 1 or 2; number of the turn
+    real(wp) :: moment
+
+    integer :: j
+
+    moment = 0.0_wp
+    do j = 1, size(couple)
+      if (j == number) cycle
+      if (is_same(ends(end, number), ends(1, j))) moment = moment + couple(j)
+      if (is_same(ends(end, number), ends(2, j))) moment = moment - couple(j)
+    end do
+  end function moment_of_others
 
   pure function is_same(one, other)
     type(turned_end_t), intent(in) :: one, other
