@@ -7,7 +7,7 @@ module response_linkage_checks
   use kinds, only: wp
   use mechanisms, only: mechanism_t
   use models, only: drives_length, model_t, steady_state_report
-  use steady_turns, only: has_steady_turn
+  use full_turns, only: has_steady_turn
   implicit none (type, external)
   private
 

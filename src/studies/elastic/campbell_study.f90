@@ -6,7 +6,7 @@ module campbell_study
   use link_store, only: link_store_t
   use stability_study, only: of_vibrating_bodies
   use stability_types, only: stability_request_t
-  use steady_turns, only: has_steady_turn
+  use full_turns, only: has_steady_turn
   use structures, only: structure_t
   implicit none (type, external)
   private

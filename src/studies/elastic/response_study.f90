@@ -8,7 +8,7 @@ module response_study
   use response_types, only: response_request_t, response_t, speed_response_t
   use stability_types, only: stability_request_t
   use steady_responses, only: find_steady_responses
-  use steady_turns, only: has_steady_turn
+  use full_turns, only: has_steady_turn
   use structures, only: structure_t
   implicit none (type, external)
   private

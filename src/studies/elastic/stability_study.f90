@@ -6,7 +6,7 @@ module stability_study
   use part_requests, only: dampings_of_parts
   use stability, only: find_stability
   use stability_types, only: gap_t, instability_t, intervals_t, stability_request_t, stability_t
-  use steady_turns, only: has_steady_turn
+  use full_turns, only: has_steady_turn
   use structures, only: structure_t
   implicit none (type, external)
   private

@@ -1,5 +1,5 @@
 !> Whether a linkage has a steady motion: its crank turns fully.
-module steady_turns
+module full_turns
   use crank_cycle, only: turns_freely
   use crank_limits, only: turns_fully
   use four_bar_loops, only: find_four_bar, four_bar_t
@@ -28,4 +28,4 @@ contains
     end if
   end function has_steady_turn
 
-end module steady_turns
+end module full_turns
