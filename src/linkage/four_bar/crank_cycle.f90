@@ -4,8 +4,6 @@ module crank_cycle
   use load_tables, only: refuse_beyond_tables
   use balance_shafts, only: parts_of_shafts
   use errors, only: error_of_numerics, error_t, set_error
-  use four_bar_loops, only: four_bar_t
-  use four_bar_limits, only: crank_reach, reach_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use linkages, only: linkage_t
@@ -17,7 +15,7 @@ module crank_cycle
   implicit none (type, external)
   private
 
-  public :: cycle_t, turns_freely, parts_at, find_parts, cycle_values, find_largest_value, &
+  public :: cycle_t, parts_at, find_parts, cycle_values, find_largest_value, &
     usual_values
   public :: quantity_names, quantity_count, shaking_x, shaking_y, shaking_force, shaking_moment, &
     drive_torque
@@ -42,27 +40,6 @@ module crank_cycle
   end type cycle_t
 
 contains
-
-  !> Whether the crank of a four-bar turns fully without reaching a dead point.
-  pure function turns_freely(linkage, four_bar) result(turns)
-    type(linkage_t), intent(in) :: linkage   !! a four-bar
-    type(four_bar_t), intent(in) :: four_bar !! that it is
-    logical :: turns
-
-    type(reach_t) :: reach
-    type(pose_t) :: pose
-    type(error_t), allocatable :: error
-    integer :: i
-
-    reach = crank_reach(four_bar%ground, four_bar%length)
-    turns = reach%closes .and. reach%least <= 0.0_wp .and. reach%most >= 180.0_wp
-    ! The transmission angle is least and greatest as the crank passes the line of the ground.
-    do i = 0, 1
-      if (.not. turns) return
-      call find_pose(linkage, reach%ground + 180.0_wp*i, pose, error)
-      turns = .not. allocated(error)
-    end do
-  end function turns_freely
 
   !> Shaking force, shaking moment and torque at a crank angle, with those of balance shafts, for
   !! each of the three load cases; zero where the links cannot be moved.

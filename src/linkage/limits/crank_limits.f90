@@ -5,12 +5,12 @@ module crank_limits
   use linkage_paths, only: period_of
   use linkages, only: bridge_t, drive_of_angle, linkage_t
   use pose_types, only: pose_t
-  use poses, only: find_moving_pose, place_links
+  use poses, only: place_links
   use sorting, only: ascending_order
   implicit none (type, external)
   private
 
-  public :: crank_range_t, find_ranges, find_ranges_of_deck, in_turns_of, turns_fully
+  public :: crank_range_t, find_ranges, find_ranges_of_deck, in_turns_of
 
   !> An interval of the first drive in which the linkage closes on its branch.
   type :: crank_range_t
@@ -161,25 +161,6 @@ contains
       ends = tried
     end do
   end function in_turns_of
-
-  !> Whether the first drive turns a link fully and all positions repeat after a turn, without a
-  !! dead point on the way.
-  pure function turns_fully(linkage) result(turns)
-    type(linkage_t), intent(in) :: linkage !! of any kind, with its path
-    logical :: turns
-
-    type(pose_t) :: pose
-    type(error_t), allocatable :: error
-    integer :: i
-
-    turns = linkage%drives(1)%kind == drive_of_angle .and. &
-      abs(period_of(linkage) - 360.0_wp) <= 0.0_wp
-    do i = 1, samples
-      if (.not. turns) return
-      call find_moving_pose(linkage, 360.0_wp*i/samples, pose, error)
-      turns = .not. allocated(error)
-    end do
-  end function turns_fully
 
   pure function is_closed(linkage, crank) result(is)
     type(linkage_t), intent(in) :: linkage

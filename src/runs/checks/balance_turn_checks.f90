@@ -2,7 +2,7 @@
 module balance_turn_checks
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_reach
-  use harmonics_study, only: has_cycle
+  use full_turns, only: turns_fully
   use mechanisms, only: mechanism_t
   use models, only: balances, model_t, report_number
   use partial_balance_study, only: no_turn
@@ -24,7 +24,7 @@ contains
     type(token_t) :: place
 
     if (.not. balances(model) .or. report_number(model, "balance") == 0) return
-    if (has_cycle(mechanism%linkage)) return
+    if (turns_fully(mechanism%linkage, through=.true.)) return
     place = model%balance%keyword
     if (place%line == 0) place = model%shafts(1)%keyword
     call add_error(diagnostics, place, no_turn, kind=error_of_reach)

@@ -4,7 +4,6 @@ module deck_checks
   use beam_mesh, only: moving_unknowns
   use change_point_checks, only: warn_of_change_points
   use column_checks, only: check_columns
-  use crank_cycle, only: turns_freely
   use deformation_shapes, only: bending_unknowns
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use drawing_checks, only: check_drawing
@@ -12,6 +11,7 @@ module deck_checks
   use four_bar_loops, only: is_plain
   use four_bar_branches, only: refuse_format
   use four_bar_limits, only: crank_reach, reach_t
+  use full_turns, only: turns_fully
   use kinds, only: wp
   use linkage_checks, only: check_linkage
   use linkage_builder, only: assemble_linkage, assembly_t
@@ -185,7 +185,7 @@ contains
       no_state = "the motion, with springs or dampers,"
     end if
     if (report == 0) return
-    if (turns_freely(mechanism%linkage, mechanism%four_bar)) return
+    if (turns_fully(mechanism%linkage, through=.false.)) return
     place = model%reports(report)%keyword
     no_state = "; REPORT "//trim(model%reports(report)%kind%name)//" is on "//no_state//" of "// &
       "a crank that turns fully, and there is none"

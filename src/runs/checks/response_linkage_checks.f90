@@ -4,10 +4,10 @@ module response_linkage_checks
   use diagnostics, only: add_error, diagnostics_t, has_errors
   use elastic_linkages, only: is_piece
   use errors, only: error_of_reach
+  use full_turns, only: turns_fully
   use kinds, only: wp
   use mechanisms, only: mechanism_t
   use models, only: drives_length, model_t, steady_state_report
-  use full_turns, only: has_steady_turn
   implicit none (type, external)
   private
 
@@ -48,7 +48,7 @@ contains
     else
       return
     end if
-    if (has_steady_turn(mechanism%linkage)) return
+    if (turns_fully(mechanism%linkage, through=.false.)) return
     name = "; REPORT "//trim(model%reports(report)%kind%name)//" is on "//name//" of a crank "// &
       "that turns fully, and there is none; frequencies at positions do without"
     if (drives_length(model)) then

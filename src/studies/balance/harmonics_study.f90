@@ -5,11 +5,11 @@ module harmonics_study
   use balanced_linkages, only: balanced_linkage, counterweight_t
   use constants, only: degree
   use counterweights, only: find_counterweights
-  use crank_limits, only: turns_fully
   use errors, only: error_t
   use crank_cycle, only: cycle_t, cycle_values, drive_torque, find_largest_value, quantity_count, &
-    quantity_names, shaking_moment, turns_freely, usual_values
-  use four_bar_loops, only: find_four_bar, four_bar_t, is_plain
+    quantity_names, shaking_moment, usual_values
+  use four_bar_loops, only: is_plain
+  use full_turns, only: turns_fully
   use harmonics, only: highest_harmonic, spectrum_of, spectrum_t
   use hung_counterweights, only: find_hung_counterweights, obstacle_t
   use interruption, only: was_interrupted
@@ -21,7 +21,7 @@ module harmonics_study
   private
 
   public :: harmonics_result_t, harmonic_t, find_harmonics, quantity_count, quantity_names, &
-    highest_harmonic, is_moment, has_cycle, has_settled, find_cancelling_weights
+    highest_harmonic, is_moment, has_settled, find_cancelling_weights
 
   !> A quantity over a cycle of n turns: mean + Σ amplitude cos(k θ2/n + phase), all in [N] or [N m]
   !! but phases.
@@ -78,7 +78,7 @@ contains
     real(wp) :: period
     integer :: solutions, i, k, q
 
-    found%has_cycle = has_cycle(linkage)
+    found%has_cycle = turns_fully(linkage, through=.true.)
     if (.not. found%has_cycle) return
     period = load_period(linkage, period_of(linkage))
     found%turns = nint(period/360.0_wp)
@@ -131,21 +131,6 @@ contains
     end do
     !$omp end parallel do
   end subroutine find_harmonics
-
-  !> Whether the crank turns fully, without a dead point.
-  pure function has_cycle(linkage) result(has)
-    type(linkage_t), intent(in) :: linkage !! of any kind
-    logical :: has
-
-    type(four_bar_t), allocatable :: four_bar
-
-    call find_four_bar(linkage, four_bar)
-    if (allocated(four_bar)) then
-      has = turns_freely(linkage, four_bar)
-    else
-      has = turns_fully(linkage)
-    end if
-  end function has_cycle
 
   !> The linkage as given and, where there are counterweights in closed form, balanced.
   pure subroutine balance_linkage(linkage, elements, linkages)

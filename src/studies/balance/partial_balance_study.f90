@@ -12,7 +12,7 @@ module partial_balance_study
   use crank_cycle, only: cycle_t, drive_torque, parts_at, quantity_count, shaking_force, &
     shaking_moment, usual_values
   use errors, only: error_of_reach, error_t, set_error
-  use harmonics_study, only: has_cycle
+  use full_turns, only: turns_fully
   use kinds, only: wp
   use linkages, only: linkage_t, reference_point, shaft_t
   use rigid_bodies, only: rigid_bodies_of, total_mass
@@ -84,7 +84,7 @@ contains
 
     found%linkage = linkage
     allocate (found%weights(0), found%diameter(0), found%idle(0))
-    if (.not. has_cycle(linkage)) then
+    if (.not. turns_fully(linkage, through=.true.)) then
       call set_error(found%error, error_of_reach, no_turn)
       return
     end if

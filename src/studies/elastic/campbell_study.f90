@@ -3,10 +3,10 @@ module campbell_study
   use campbell, only: find_campbell
   use campbell_types, only: campbell_t
   use errors, only: error_of_reach, error_t, set_error
+  use full_turns, only: turns_fully
   use link_store, only: link_store_t
   use stability_study, only: of_vibrating_bodies
   use stability_types, only: stability_request_t
-  use full_turns, only: has_steady_turn
   use structures, only: structure_t
   implicit none (type, external)
   private
@@ -26,7 +26,7 @@ contains
     type(error_t), allocatable :: error
     integer :: k
 
-    if (has_steady_turn(structure%linkage)) then
+    if (turns_fully(structure%linkage, through=.false.)) then
       call find_campbell(structure, of_vibrating_bodies(structure, request), threads, store, &
         found, error)
     else

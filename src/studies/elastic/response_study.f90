@@ -1,6 +1,7 @@
 !> The steady elastic response at all speeds of a deck.
 module response_study
   use errors, only: error_of_reach, error_t, set_error
+  use full_turns, only: turns_fully
   use kinds, only: wp
   use link_store, only: link_store_t
   use modal_distances, only: find_modal_distances, modal_distance_t
@@ -8,7 +9,6 @@ module response_study
   use response_types, only: response_request_t, response_t, speed_response_t
   use stability_types, only: stability_request_t
   use steady_responses, only: find_steady_responses
-  use full_turns, only: has_steady_turn
   use structures, only: structure_t
   implicit none (type, external)
   private
@@ -28,7 +28,7 @@ contains
     type(error_t), allocatable :: error
     integer :: k
 
-    if (.not. has_steady_turn(structure%linkage)) then
+    if (.not. turns_fully(structure%linkage, through=.false.)) then
       allocate (response%at_speed(size(request%speed)))
       call set_error(error, error_of_reach, "the crank does not turn fully, or meets a dead "// &
         "point: there is no steady state")

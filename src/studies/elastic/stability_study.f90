@@ -2,11 +2,11 @@
 module stability_study
   use instability_intervals, only: find_intervals
   use errors, only: error_of_reach, error_t, set_error
+  use full_turns, only: turns_fully
   use link_store, only: link_store_t
   use part_requests, only: dampings_of_parts
   use stability, only: find_stability
   use stability_types, only: gap_t, instability_t, intervals_t, stability_request_t, stability_t
-  use full_turns, only: has_steady_turn
   use structures, only: structure_t
   implicit none (type, external)
   private
@@ -29,7 +29,7 @@ contains
     type(error_t), allocatable :: error
     integer :: k
 
-    if (has_steady_turn(structure%linkage)) then
+    if (turns_fully(structure%linkage, through=.false.)) then
       call find_stability(structure, of_vibrating_bodies(structure, request), threads, store, &
         found, error)
     else
@@ -54,7 +54,7 @@ contains
 
     type(error_t), allocatable :: error
 
-    if (has_steady_turn(structure%linkage)) then
+    if (turns_fully(structure%linkage, through=.false.)) then
       call find_intervals(structure, of_vibrating_bodies(structure, request), threads, store, &
         found, error)
     else

@@ -1,31 +1,52 @@
-!> Whether a linkage has a steady motion: its crank turns fully.
+!> Whether the crank of a linkage turns fully.
 module full_turns
-  use crank_cycle, only: turns_freely
-  use crank_limits, only: turns_fully
+  use errors, only: error_t
+  use four_bar_limits, only: crank_reach, reach_t
   use four_bar_loops, only: find_four_bar, four_bar_t
-  use linkage_paths, only: has_change_points
-  use linkages, only: linkage_t
+  use kinds, only: wp
+  use linkage_paths, only: has_change_points, period_of
+  use linkages, only: drive_of_angle, linkage_t
+  use poses, only: find_moving_pose, pose_t
   implicit none (type, external)
   private
 
-  public :: has_steady_turn
+  public :: turns_fully
 
 contains
 
-  !> Whether the first drive turns a link fully, without a dead point, and all positions repeat. For
-  !! a four-bar that is a closed form; with others it is tried every half degree.
-  pure function has_steady_turn(linkage) result(has)
+  !> Whether the first drive turns a link fully, without a dead point, and all positions repeat
+  !! after a turn. For a four-bar that is a closed form; with others it is tried every half degree.
+  pure function turns_fully(linkage, through) result(turns)
     type(linkage_t), intent(in) :: linkage !! of any kind, with its path
-    logical :: has
+    logical, intent(in) :: through         !! a linkage that is no four-bar may go through change
+                                           !! points
+    logical :: turns
 
+    integer, parameter :: samples = 720
     type(four_bar_t), allocatable :: four_bar
+    type(reach_t) :: reach
+    type(pose_t) :: pose
+    type(error_t), allocatable :: error
+    real(wp), allocatable :: cranks(:)
+    integer :: i
 
     call find_four_bar(linkage, four_bar)
     if (allocated(four_bar)) then
-      has = turns_freely(linkage, four_bar)
+      reach = crank_reach(four_bar%ground, four_bar%length)
+      turns = reach%closes .and. reach%least <= 0.0_wp .and. reach%most >= 180.0_wp
+      ! The transmission angle is least and greatest as the crank passes the line of the ground.
+      cranks = reach%ground + [0.0_wp, 180.0_wp]
     else
-      has = turns_fully(linkage) .and. .not. has_change_points(linkage)
+      turns = linkage%drives(1)%kind == drive_of_angle .and. abs(period_of(linkage) - 360.0_wp) <= &
+        0.0_wp
+      cranks = [(360.0_wp*i/samples, i=1, samples)]
     end if
-  end function has_steady_turn
+    if (allocated(four_bar) .or. .not. through) turns = turns .and. .not. has_change_points(linkage)
+    do i = 1, size(cranks)
+      if (.not. turns) return
+      call find_moving_pose(linkage, cranks(i), pose, error)
+      turns = .not. allocated(error)
+    end do
+  end function turns_fully
 
 end module full_turns
