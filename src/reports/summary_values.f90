@@ -11,7 +11,7 @@ module summary_values
   use joint_study, only: drives_at_speed, frame_at_speed, joints_at_speed
   use joints_report, only: open_words
   use kinds, only: wp
-  use kinematics_study, only: kinematic_values, kinematics_at
+  use kinematics_study, only: transmission_at
   use locked_rows, only: is_locked_at, lock_at
   use models, only: report_number
   use response_notes, only: has_response
@@ -120,7 +120,7 @@ contains
     type(value_t), intent(out) :: found
 
     real(wp) :: rates(2), values(2*variant%model%modes), frame(6), &
-      motion(kinematic_values), drives(3, size(variant%mechanism%linkage%drives))
+      drives(3, size(variant%mechanism%linkage%drives))
 
     associate (model => variant%model, results => variant%found, &
         state => variant%found%positions%state(position), &
@@ -135,8 +135,8 @@ contains
         if (name == "zeta*") values(:model%modes) = damping_values(results%sweep, state, speed)
         found%value = values(quantity%mode)
       case ("kinematics")
-        motion = kinematics_at(results%kinematics, state, rates(1), rates(2))
-        found%value = motion(kinematic_values)
+        found%value = transmission_at(variant%mechanism%linkage, variant%mechanism%four_bar, &
+          results%positions%states(state))
       case ("drives")
         drives = drives_at_speed(variant%mechanism%linkage, results%joints, state, &
           results%positions%crank(position), rates(1), rates(2), speed)

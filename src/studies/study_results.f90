@@ -10,7 +10,7 @@ module study_results
   use home_ranges, only: home_range_t
   use inertia_study, only: inertia_result_t
   use joint_study, only: joints_result_t
-  use kinematics_study, only: kinematics_result_t
+  use kinematics_study, only: transmission_range_t
   use lagrange_study, only: lagrange_result_t
   use limits_study, only: limits_result_t
   use motion_study, only: motion_result_t
@@ -31,7 +31,7 @@ module study_results
     type(positions_t) :: positions
     type(linkage_class_t) :: class
     type(home_range_t) :: home
-    type(kinematics_result_t) :: kinematics
+    type(transmission_range_t) :: transmission              !! of a four-bar
     type(geometry_result_t) :: geometry
     type(inertia_result_t) :: inertia
     type(point_coefficients_t), allocatable :: points(:, :) !! (points, states)

@@ -2,7 +2,7 @@
 !! transmission angle.
 module kinematics_report
   use drive_motions, only: drive_rates
-  use kinematics_study, only: kinematics_at
+  use kinematics_study, only: four_bar_at_speed
   use linkage_notes, only: angle_note, notes_on_linkage
   use load_notes, only: acceleration_note
   use position_rows, only: add_position_row
@@ -40,7 +40,7 @@ contains
 
   !> Notes on the linkage, the links and pins that the columns refer to, the crank's acceleration.
   pure subroutine kinematics_notes(variant, notes)
-    type(variant_results_t), intent(in) :: variant       !! with class and kinematics computed
+    type(variant_results_t), intent(in) :: variant       !! with class and transmission angles
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
     notes = notes_on_linkage(variant)
@@ -54,16 +54,17 @@ contains
 
   !> Appends the row of a position and speed.
   subroutine add_kinematics(variant, layout, position, speed, rows)
-    type(variant_results_t), intent(in) :: variant !! with kinematics computed
+    type(variant_results_t), intent(in) :: variant !! with its positions
     type(table_layout_t), intent(in) :: layout     !! of this table
     integer, intent(in) :: position                !! number in the deck's list, with a pose
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which it is appended
 
     associate (rates => drive_rates(variant%model, speed, position), &
-        state => variant%found%positions%state(position))
-      call add_position_row(variant, layout, position, speed, &
-        kinematics_at(variant%found%kinematics, state, rates(1), rates(2)), rows)
+        positions => variant%found%positions, mechanism => variant%mechanism)
+      call add_position_row(variant, layout, position, speed, four_bar_at_speed( &
+        mechanism%linkage, mechanism%four_bar, positions%states(positions%state(position)), &
+        rates(1), rates(2)), rows)
     end associate
   end subroutine add_kinematics
 

@@ -3,8 +3,8 @@
 module links_report
   use drive_motions, only: drive_rates, place_columns, table_place
   use kinds, only: wp
+  use kinematics_study, only: link_at_speed, pin_at_speed
   use linkage_notes, only: notes_on_linkage
-  use links_study, only: link_at_speed, pin_at_speed
   use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
   use report_kinds, only: other_linkages, report_kind_t

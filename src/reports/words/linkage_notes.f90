@@ -15,7 +15,7 @@ contains
   !> Grashof class, limit positions, extreme transmission angles; or that the linkage does not
   !! close.
   pure function notes_on_linkage(variant) result(notes)
-    type(variant_results_t), intent(in) :: variant !! with class and kinematics computed
+    type(variant_results_t), intent(in) :: variant !! with class and transmission angles
     type(string_t), allocatable :: notes(:)
 
     character(len=:), allocatable :: limits
@@ -26,8 +26,8 @@ contains
       call append_home_range(variant, notes)
       return
     end if
-    associate (class => variant%found%class, found => variant%found%kinematics, &
-        crank => variant%found%positions%crank, state => variant%found%positions%state)
+    associate (class => variant%found%class, found => variant%found%transmission, &
+        crank => variant%found%positions%crank)
       call append_string(notes, class%grashof)
       if (.not. class%reach%closes) then
         call append_string(notes, variant%unreachable)
@@ -43,10 +43,8 @@ contains
       call append_home_range(variant, notes)
       if (found%at_least == 0) return
       call append_string(notes, "transmission angle: "// &
-        to_string(found%transmission(state(found%at_least)))//" deg at crank "// &
-        to_string(crank(found%at_least), 10)//" to "// &
-        to_string(found%transmission(state(found%at_most)))//" deg at crank "// &
-        to_string(crank(found%at_most), 10))
+        to_string(found%least)//" deg at crank "//to_string(crank(found%at_least), 10)//" to "// &
+        to_string(found%most)//" deg at crank "//to_string(crank(found%at_most), 10))
     end associate
   end function notes_on_linkage
 

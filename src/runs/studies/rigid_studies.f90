@@ -13,7 +13,7 @@ module rigid_studies
   use joint_study, only: drives_at_speed, find_joints
   use joints_report, only: open_words
   use kinds, only: wp
-  use kinematics_study, only: find_kinematics
+  use kinematics_study, only: find_transmission_range
   use lagrange_study, only: find_lagrange_terms
   use limits_study, only: find_limits
   use linkage_study, only: find_linkage
@@ -63,13 +63,13 @@ contains
     call add_study(list, study_t("equilibrium", compute=compute_equilibrium))
   end subroutine add_rigid_studies
 
-  !> Angles of four-bars; the tables of other linkages take theirs from the poses.
+  !> Transmission angles of four-bars; all else is in the poses and their coefficients.
   subroutine compute_kinematics(run)
     type(variant_run_t), intent(inout), target :: run
 
     associate (mechanism => run%results%mechanism, found => run%results%found)
-      if (allocated(mechanism%four_bar)) call find_kinematics(mechanism%linkage, &
-        mechanism%four_bar, found%positions, run%threads, found%kinematics)
+      if (allocated(mechanism%four_bar)) call find_transmission_range( &
+        mechanism%linkage, mechanism%four_bar, found%positions, found%transmission)
     end associate
   end subroutine compute_kinematics
 

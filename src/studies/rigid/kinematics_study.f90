@@ -1,105 +1,110 @@
-!> Kinematics of a four-bar: angles, angular velocities and accelerations of the links, places of
-!! the moving pins, transmission angle.
+!> Kinematics at a position and speed: angles, angular velocities and accelerations of links, paths,
+!! velocities and accelerations of pins; of a four-bar in one row, with the transmission angle.
 module kinematics_study
   use constants, only: degree
-  use kinds, only: wp
   use four_bar_loops, only: four_bar_t
+  use kinds, only: wp
   use linkages, only: linkage_t
-  use poses, only: angle_along, transmission_angle
-  use positions, only: positions_t
+  use poses, only: angle_along, body_angle, transmission_angle
+  use positions, only: positions_t, state_t
   implicit none (type, external)
   private
 
-  public :: kinematic_values, kinematics_result_t, find_kinematics, kinematics_at
+  public :: link_at_speed, pin_at_speed, four_bar_at_speed, transmission_at, &
+    transmission_range_t, find_transmission_range
 
-  !> Number of values of `kinematics_at`.
-  integer, parameter :: kinematic_values = 11
-
-  !> Quantities that do not depend on the speed, in the order coupler, follower; zeros where there
-  !! is no pose.
-  type :: kinematics_result_t
-    real(wp), allocatable :: angle(:, :)        !! (2, states) θ3 and θ4 [deg]
-    real(wp), allocatable :: turn(:, :)         !! (2, states) h = dθ/dθ2 [-]
-    real(wp), allocatable :: turn_slope(:, :)   !! (2, states) h' = d²θ/dθ2² [-]
-    real(wp), allocatable :: pin(:, :)          !! (4, states) x and y of A, then of B [m]
-    real(wp), allocatable :: transmission(:)    !! (states) transmission angle, between coupler and
-                                                !! follower [deg]
-    integer :: at_least = 0, at_most = 0        !! numbers, in the deck's list, of the positions of
-                                                !! least and greatest transmission angle; 0: there
-                                                !! is no pose at all
-  end type kinematics_result_t
+  !> The least and the greatest transmission angle of a four-bar over a deck's list.
+  type :: transmission_range_t
+    real(wp) :: least = huge(1.0_wp), most = -1.0_wp !! [deg]
+    integer :: at_least = 0, at_most = 0 !! numbers of the positions; 0: there is no pose at all
+  end type transmission_range_t
 
 contains
 
-  !> Kinematics at all positions, once for all speeds: Ulker 2010 (2.1) to (2.38), which are solved
-  !! in `poses` and `kinematic_coefficients`.
-  subroutine find_kinematics(linkage, four_bar, positions, threads, found)
+  !> Angle [deg], angular velocity [rad/s] and acceleration [rad/s²] of a link.
+  pure function link_at_speed(linkage, state, body, speed, acceleration, from) result(values)
+    type(linkage_t), intent(in) :: linkage !! its bodies
+    type(state_t), intent(in) :: state     !! with a pose
+    integer, intent(in) :: body            !! number, from 1
+    real(wp), intent(in) :: speed          !! of the first drive [rad/s] or [m/s]
+    real(wp), intent(in) :: acceleration   !! of the first drive [rad/s²] or [m/s²]
+    integer, intent(in), optional :: from  !! its end from which the angle is measured; absent: as
+                                           !! its card names the pins
+    real(wp) :: values(3)
+
+    associate (h => state%coefficients%turn(body), slope => state%coefficients%turn_slope(body))
+      values = [0.0_wp, h*speed, h*acceleration + slope*speed**2]
+    end associate
+    if (present(from)) then
+      values(1) = angle_along(linkage, state%pose, body, from)/degree
+    else
+      values(1) = body_angle(linkage, state%pose, body)/degree
+    end if
+  end function link_at_speed
+
+  !> Place [m], velocity [m/s] and acceleration [m/s²] of a pin.
+  pure function pin_at_speed(state, pin, speed, acceleration) result(values)
+    type(state_t), intent(in) :: state   !! with a pose
+    integer, intent(in) :: pin           !! number, from 1
+    real(wp), intent(in) :: speed        !! of the first drive [rad/s] or [m/s]
+    real(wp), intent(in) :: acceleration !! of the first drive [rad/s²] or [m/s²]
+    real(wp) :: values(6)
+
+    values = [state%pose%pin(:, pin), state%coefficients%pin(:, pin)*speed, &
+      state%coefficients%pin(:, pin)*acceleration + state%coefficients%pin_slope(:, pin)*speed**2]
+  end function pin_at_speed
+
+  !> A four-bar, Ulker 2010 (2.1) to (2.38): θ3, θ4 [deg], ω3, ω4 [rad/s], α3, α4 [rad/s²], x and y
+  !! of A and B [m], transmission angle [deg].
+  pure function four_bar_at_speed(linkage, four_bar, state, speed, acceleration) result(values)
+    type(linkage_t), intent(in) :: linkage   !! a four-bar
+    type(four_bar_t), intent(in) :: four_bar !! that it is
+    type(state_t), intent(in) :: state       !! with a pose
+    real(wp), intent(in) :: speed            !! ω2 [rad/s]
+    real(wp), intent(in) :: acceleration     !! α2 [rad/s²]
+    real(wp) :: values(11)
+
+    real(wp) :: link(3, 2)
+    integer :: i
+
+    do i = 1, 2
+      link(:, i) = link_at_speed(linkage, state, four_bar%body(i + 1), speed, acceleration, &
+        four_bar%pin(2*i))
+    end do
+    values(:10) = [transpose(link), state%pose%pin(:, four_bar%pin(2:3))]
+    values(11) = transmission_at(linkage, four_bar, state)
+  end function four_bar_at_speed
+
+  !> Transmission angle of a four-bar, between coupler and follower [deg].
+  pure function transmission_at(linkage, four_bar, state) result(angle)
+    type(linkage_t), intent(in) :: linkage   !! a four-bar
+    type(four_bar_t), intent(in) :: four_bar !! that it is
+    type(state_t), intent(in) :: state       !! with a pose
+    real(wp) :: angle
+
+    angle = transmission_angle(linkage, state%pose, four_bar%dyad)/degree
+  end function transmission_at
+
+  !> Positions of least and greatest transmission angle; of equal ones the first in the list.
+  pure subroutine find_transmission_range(linkage, four_bar, positions, range)
     type(linkage_t), intent(in) :: linkage          !! a four-bar
     type(four_bar_t), intent(in) :: four_bar        !! that it is
     type(positions_t), intent(in) :: positions      !! of the run
-    integer, intent(in) :: threads                  !! number of OpenMP threads
-    type(kinematics_result_t), intent(out) :: found !! for all positions and speeds
+    type(transmission_range_t), intent(out) :: range
 
-    integer :: i, n
-
-    n = size(positions%states)
-    allocate (found%angle(2, n), found%turn(2, n), found%turn_slope(2, n), found%pin(4, n), &
-      found%transmission(n))
-    found%angle = 0.0_wp
-    found%turn = 0.0_wp
-    found%turn_slope = 0.0_wp
-    found%pin = 0.0_wp
-    found%transmission = 0.0_wp
-    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
-    do i = 1, n
-      associate (state => positions%states(i))
-        if (allocated(state%error)) cycle
-        found%angle(:, i) = [angle_along(linkage, state%pose, four_bar%body(2), four_bar%pin(2)), &
-          angle_along(linkage, state%pose, four_bar%body(3), four_bar%pin(4))]/degree
-        found%turn(:, i) = state%coefficients%turn(four_bar%body(2:))
-        found%turn_slope(:, i) = state%coefficients%turn_slope(four_bar%body(2:))
-        found%pin(:, i) = [state%pose%pin(:, four_bar%pin(2)), state%pose%pin(:, four_bar%pin(3))]
-        found%transmission(i) = transmission_angle(linkage, state%pose, four_bar%dyad)/degree
-      end associate
-    end do
-    !$omp end parallel do
-    call find_extremes(positions, found)
-  end subroutine find_kinematics
-
-  !> Positions of least and greatest transmission angle; of equal ones the first in the list.
-  pure subroutine find_extremes(positions, found)
-    type(positions_t), intent(in) :: positions
-    type(kinematics_result_t), intent(inout) :: found
-
-    real(wp) :: least, most
+    real(wp) :: angle
     integer :: i
 
-    least = huge(least)
-    most = -1.0_wp
     do i = 1, size(positions%crank)
-      if (allocated(positions%states(positions%state(i))%error)) cycle
-      associate (angle => found%transmission(positions%state(i)))
-        if (angle < least) found%at_least = i
-        if (angle > most) found%at_most = i
-        least = min(least, angle)
-        most = max(most, angle)
+      associate (state => positions%states(positions%state(i)))
+        if (allocated(state%error)) cycle
+        angle = transmission_at(linkage, four_bar, state)
       end associate
+      if (angle < range%least) range%at_least = i
+      if (angle > range%most) range%at_most = i
+      range%least = min(range%least, angle)
+      range%most = max(range%most, angle)
     end do
-  end subroutine find_extremes
-
-  !> Values at a speed: θ3, θ4 [deg], ω3, ω4 [rad/s], α3, α4 [rad/s²], x and y of A and B [m],
-  !! transmission angle [deg].
-  pure function kinematics_at(found, state, speed, acceleration) result(values)
-    type(kinematics_result_t), intent(in) :: found !! for all positions
-    integer, intent(in) :: state                   !! number; with a pose
-    real(wp), intent(in) :: speed                  !! ω2 [rad/s]
-    real(wp), intent(in) :: acceleration           !! α2 [rad/s²]
-    real(wp) :: values(kinematic_values)
-
-    associate (h => found%turn(:, state), slope => found%turn_slope(:, state))
-      values = [found%angle(:, state), h*speed, h*acceleration + slope*speed**2, &
-        found%pin(:, state), found%transmission(state)]
-    end associate
-  end function kinematics_at
+  end subroutine find_transmission_range
 
 end module kinematics_study
