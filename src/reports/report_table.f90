@@ -14,16 +14,16 @@ module report_table
   use inertia_report, only: describe_inertia, describe_other_inertia
   use intervals_report, only: describe_intervals
   use joints_report, only: describe_drives, describe_drives_as_drive, describe_joints
-  use kinematics_report, only: describe_kinematics
+  use kinematics_report, only: describe_kinematics, describe_links
   use lagrange_report, only: describe_lagrange
   use limits_report, only: describe_limits
   use linkage_report, only: describe_linkage
-  use links_report, only: describe_links, describe_pins
   use loci_report, only: describe_branches
   use mesh_report, only: describe_mesh
   use models, only: model_t, report_number
   use motion_report, only: describe_linkage_motion, describe_motion
   use peaks_report, only: describe_peaks
+  use pins_report, only: describe_pins
   use points_report, only: describe_points
   use reactions_report, only: describe_reactions
   use report_kinds, only: report_kind_t

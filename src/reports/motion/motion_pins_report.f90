@@ -1,7 +1,7 @@
 !> `motion_pins.dat`: where the pins are while the linkage moves under its motor and loads.
 module motion_pins_report
   use kinds, only: wp
-  use links_report, only: plan_pins
+  use pins_report, only: plan_pins
   use models, only: model_t, report_number
   use report_types, only: whole_table_t
   use table_columns, only: cells, column_width, table_factor, table_layout_t

@@ -4,9 +4,9 @@ module joints_report
   use joint_study, only: drives_at_speed, joint_t, joints_at_speed
   use kinds, only: wp
   use drive_cards, only: moves_along
-  use links_report, only: pin_names
   use load_notes, only: acceleration_note, append_load_notes
   use models, only: model_t
+  use pins_report, only: pin_names
   use position_rows, only: add_position_row
   use report_kinds, only: other_linkages, report_kind_t
   use report_types, only: add_table, fit_columns, report_record_t, state_table_t, table_plan_t

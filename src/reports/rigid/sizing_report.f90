@@ -4,10 +4,10 @@ module sizing_report
   use constants, only: degree
   use joints_report, only: add_open_row, joint_owners, owner_cell
   use kinds, only: wp
-  use links_report, only: pin_names
   use load_notes, only: acceleration_note, append_load_notes
   use models, only: report_number
   use motor_cards, only: is_geared
+  use pins_report, only: pin_names
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, report_record_t, table_plan_t, whole_table_t
   use sizing_study, only: sized_t, sizing_t
