@@ -27,7 +27,7 @@ contains
     type(study_t), allocatable :: studies(:)
     integer :: i, k
 
-    if (.not. variant%found%class%reach%closes) then
+    if (.not. variant%found%class%closes) then
       call set_error(error, error_of_reach, variant%unreachable)
       call note_failure(variant, "variant", error, findings)
       return

@@ -6,7 +6,7 @@ module variant_runs
   use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
-  use linkage_study, only: class_of_other, classify_linkage
+  use linkage_study, only: classify_linkage
   use mechanisms, only: new_mechanism
   use models, only: has_law, model_t, needs_positions, needs_study, report_number
   use named_parts, only: name_parts
@@ -89,10 +89,8 @@ contains
       if (variant%mechanism%is_four_bar) then
         call classify_linkage(variant%mechanism%four_bar, found%class)
         call explain_positions(variant)
-      else
-        found%class = class_of_other()
       end if
-      if (found%class%reach%closes .and. .not. (model%is_structure .or. has_law(model))) &
+      if (found%class%closes .and. .not. (model%is_structure .or. has_law(model))) &
         call find_home_range(linkage, starting_cranks(model, linkage), model%crank%value, &
         has_gaps(variant), found%home)
     end associate
@@ -156,7 +154,7 @@ contains
     integer :: i
 
     associate (states => variant%found%positions%states)
-      if (variant%found%class%reach%closes) return
+      if (variant%found%class%closes) return
       ! One thread at a time makes texts: gfortran 12 keeps the lengths of such results in one place
       ! for all threads.
       !$omp critical (one_at_a_time)

@@ -12,9 +12,9 @@ module study_results
   use joint_study, only: joints_result_t
   use kinematics_study, only: transmission_range_t
   use lagrange_study, only: lagrange_result_t
-  use limits_study, only: limits_result_t
+  use limits_study, only: branches_t, limits_result_t
   use motion_study, only: motion_result_t
-  use linkage_study, only: linkage_class_t, linkage_result_t
+  use linkage_study, only: linkage_class_t
   use loci_study, only: loci_t
   use positions, only: positions_t
   use response_types, only: response_t
@@ -40,8 +40,8 @@ module study_results
     type(lagrange_result_t) :: lagrange
     type(balance_result_t) :: balance
     type(harmonics_result_t) :: harmonics
-    type(linkage_result_t) :: linkage                       !! of a four-bar
-    type(limits_result_t) :: limits                         !! of any linkage
+    type(limits_result_t) :: limits
+    type(branches_t) :: branches                            !! of a four-bar
     type(equilibria_t) :: equilibria
     type(sizing_result_t) :: sizing
     type(motion_result_t) :: motion

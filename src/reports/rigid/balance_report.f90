@@ -330,7 +330,7 @@ contains
     real(wp) :: unit_value, nowhere(0)
     integer :: i, k, q
 
-    if (.not. variant%found%class%reach%closes) call add_failed_row(rows, nowhere, &
+    if (.not. variant%found%class%closes) call add_failed_row(rows, nowhere, &
       variant%unreachable)
     if (is_unbalanced(variant)) call add_failed_row(rows, nowhere, &
       variant%found%balance%partial%error%text)

@@ -3,7 +3,7 @@
 module linkage_report
   use kinds, only: wp
   use linkage_notes, only: angle_note
-  use linkage_study, only: event_names, special_position_t
+  use limits_study, only: event_names, special_position_t
   use report_kinds, only: four_bars, report_kind_t
   use report_types, only: add_table, report_record_t, whole_table_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
@@ -34,7 +34,7 @@ contains
 
     report%kind = report_kind_t(name="linkage", help="class, limits and special positions", &
       pattern="REPORT linkage [format=]", &
-      studies="linkage", linkages=four_bars)
+      studies="limits", linkages=four_bars)
     call add_table(report, linkage_table_t(), "linkage", "branch,event:name crank,theta3,"// &
       "theta4,transmission_angle:deg", words=linkage_words())
   end subroutine describe_linkage
@@ -46,14 +46,14 @@ contains
 
     integer :: i, branch
 
-    associate (found => variant%found%linkage, &
+    associate (found => variant%found%branches, &
         names => variant%mechanism%names(variant%mechanism%four_bar%body))
-      call append_string(notes, found%grashof)
+      call append_string(notes, variant%found%class%grashof)
       call append_string(notes, "mobility 3(n - 1) - 2j of n = "//to_string(found%links)// &
         " links, ground included, and j pins: "//to_string(found%mobility))
-      do branch = 1, size(found%branches)
-        do i = 1, size(found%branches(branch)%ranges)
-          associate (range => found%branches(branch)%ranges(i))
+      do branch = 1, size(found%of)
+        do i = 1, size(found%of(branch)%ranges)
+          associate (range => found%of(branch)%ranges(i))
             call append_string(notes, trim(branch_names(branch))//" branch: "// &
               range_text("link "//names(1)%text, range%crank, range%crank_turns)//", "// &
               range_text("link "//names(3)%text, range%follower, range%follower_turns))
@@ -89,13 +89,13 @@ contains
     real(wp) :: nowhere(0)
     integer :: i, branch
 
-    if (.not. variant%found%class%reach%closes) then
+    if (.not. variant%found%class%closes) then
       call add_failed_row(rows, nowhere, variant%unreachable)
       return
     end if
     do branch = 1, size(branch_names)
       if (branch > 1) call add_gap(rows, 2)
-      associate (positions => variant%found%linkage%branches(branch)%positions)
+      associate (positions => variant%found%branches%of(branch)%positions)
         do i = 1, size(positions)
           call add_row(rows, name_cell(trim(branch_names(branch)), column_width(layout, 1))// &
             name_cell(trim(event_names(positions(i)%event)), column_width(layout, 2))// &

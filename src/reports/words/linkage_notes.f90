@@ -29,7 +29,7 @@ contains
     associate (class => variant%found%class, found => variant%found%transmission, &
         crank => variant%found%positions%crank)
       call append_string(notes, class%grashof)
-      if (.not. class%reach%closes) then
+      if (.not. class%closes) then
         call append_string(notes, variant%unreachable)
         return
       end if

@@ -15,9 +15,8 @@ module rigid_studies
   use kinds, only: wp
   use kinematics_study, only: find_transmission_range
   use lagrange_study, only: find_lagrange_terms
-  use limits_study, only: find_limits
-  use linkage_study, only: find_linkage
-  use models, only: balances, has_law, model_t, report_number
+  use limits_study, only: find_branches, find_limits
+  use models, only: balances, has_law, is_of_four_bar, model_t, report_number
   use named_parts, only: name_outcomes
   use points_study, only: find_points
   use position_loads, only: elastic_division_t, fail_everywhere, find_division, take_failures
@@ -56,7 +55,6 @@ contains
     call add_study(list, study_t("harmonics", compute=compute_harmonics, &
       add_failures=add_harmonics_failures, add_warnings=add_harmonics_warnings, &
       add_work=add_harmonics_work))
-    call add_study(list, study_t("linkage", compute=compute_linkage))
     call add_study(list, study_t("limits", compute=compute_limits))
     call add_study(list, study_t("sizing", compute=compute_sizing, &
       add_failures=add_sizing_failures))
@@ -190,19 +188,18 @@ contains
     end associate
   end subroutine compute_harmonics
 
-  subroutine compute_linkage(run)
-    type(variant_run_t), intent(inout), target :: run
-
-    associate (mechanism => run%results%mechanism)
-      call find_linkage(mechanism%linkage, mechanism%four_bar, run%results%found%linkage)
-    end associate
-  end subroutine compute_linkage
-
+  !> As of four-bars on both branches, else on the one that the deck has.
   subroutine compute_limits(run)
     type(variant_run_t), intent(inout), target :: run
 
-    call find_limits(run%results%mechanism%linkage, positions_of_deck(run%results%model), &
-      run%results%found%limits)
+    associate (model => run%results%model, mechanism => run%results%mechanism, &
+        found => run%results%found)
+      if (is_of_four_bar(model, "linkage")) then
+        call find_branches(mechanism%linkage, mechanism%four_bar, found%branches)
+      else
+        call find_limits(mechanism%linkage, positions_of_deck(model), found%limits)
+      end if
+    end associate
   end subroutine compute_limits
 
   subroutine compute_sizing(run)

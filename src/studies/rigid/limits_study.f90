@@ -1,20 +1,26 @@
-!> What a linkage that is no four-bar can do: ranges of its drives, dead points, swings of its
-!! links, strokes of its sliders, time ratios, transmission and pressure angles.
+!> What a linkage can do: ranges of its drives, dead points, swings of its links, strokes of its
+!! sliders, time ratios, transmission and pressure angles; of a four-bar in closed form on both
+!! branches, whichever of them it is on.
 module limits_study
+  use branch_ranges, only: branch_range_t, find_branch_ranges
   use crank_extremes, only: angle_of_body, extremes_t, find_extremes, place_of_slider, &
     pressure_of_lever, pressure_of_slider, quantity_t, transmission_of_dyad, transmission_of_lines
   use crank_limits, only: crank_range_t, find_ranges, find_ranges_of_deck
   use dead_points, only: find_low_points, low_point_t
+  use four_bar_loops, only: four_bar_t
   use group_equations, only: drive_value, line_offset
   use kinds, only: wp
   use linkage_paths, only: has_iterations, leave_path
   use linkages, only: drive_of_angle, group_by_newton, group_cross_slide, group_driven_dyad, &
-    group_dyad, group_on_line, group_through_pin, group_two_lines, linkage_t
+    group_dyad, group_on_line, group_through_pin, group_two_lines, linkage_t, mobility
+  use sorting, only: ascending_order
+  use special_positions, only: event_names, find_change_points, find_special_positions, &
+    special_position_t
   implicit none (type, external)
   private
 
   public :: limits_result_t, crank_range_t, drive_range_t, low_points_t, find_limits, time_ratio, &
-    everywhere
+    everywhere, branches_t, branch_result_t, find_branches, event_names, special_position_t
   public :: quantity_t, angle_of_body, place_of_slider, pressure_of_lever, pressure_of_slider, &
     transmission_of_dyad, transmission_of_lines
 
@@ -39,6 +45,19 @@ module limits_study
     type(quantity_t), allocatable :: quantities(:)
     type(extremes_t), allocatable :: extremes(:, :) !! (quantities, ranges)
   end type limits_result_t
+
+  type :: branch_result_t
+    type(branch_range_t), allocatable :: ranges(:)        !! of crank and follower
+    type(special_position_t), allocatable :: positions(:) !! in the order of crank angles
+  end type branch_result_t
+
+  !> Both branches of a four-bar.
+  type :: branches_t
+    integer :: links = 0           !! including the ground
+    integer :: mobility = 0        !! degrees of freedom, by counting links and pins
+    type(branch_result_t) :: of(2) !! open, crossed
+    type(special_position_t), allocatable :: change_points(:) !! where they meet
+  end type branches_t
 
 contains
 
@@ -66,6 +85,28 @@ contains
       call find_extremes(linkage, found%ranges(r), found%quantities, found%extremes(:, r))
     end do
   end subroutine find_limits
+
+  !> Mobility, ranges and special positions of a four-bar on both branches.
+  pure subroutine find_branches(linkage, four_bar, found)
+    type(linkage_t), intent(in) :: linkage    !! a four-bar
+    type(four_bar_t), intent(in) :: four_bar  !! that it is
+    type(branches_t), intent(out) :: found    !! open branch first
+
+    real(wp), parameter :: sides(2) = [1.0_wp, -1.0_wp]
+    type(special_position_t), allocatable :: positions(:)
+    integer :: i
+
+    found%links = size(linkage%bodies) + 1
+    found%mobility = mobility(linkage)
+    associate (ground => four_bar%ground, length => four_bar%length)
+      do i = 1, size(sides)
+        found%of(i)%ranges = find_branch_ranges(ground, length, sides(i))
+        positions = find_special_positions(ground, length, sides(i))
+        found%of(i)%positions = positions(ascending_order(positions%crank))
+      end do
+      found%change_points = find_change_points(ground, length)
+    end associate
+  end subroutine find_branches
 
   !> Coordinates of the first drive of a deck that names none: 0 of an angle, of a length as far as
   !! all links together reach.
