@@ -11,21 +11,20 @@ module deck_checks
   use four_bar_loops, only: is_plain
   use four_bar_branches, only: refuse_format
   use four_bar_limits, only: crank_reach, reach_t
-  use full_turns, only: turns_fully
   use kinds, only: wp
   use linkage_checks, only: check_linkage
   use linkage_builder, only: assemble_linkage, assembly_t
   use loop_poses, only: has_loop
   use mechanisms, only: mechanism_of, mechanism_t
-  use models, only: is_four_bar, model_t, needs_frequencies, needs_response, pivots, &
-    report_number, solver_band, solver_deformation, solver_dense, steady_state_report, &
-    word_of_four_bar
+  use models, only: is_four_bar, model_t, needs_frequencies, pivots, report_number, &
+    solver_band, solver_deformation, solver_dense, word_of_four_bar
   use report_kinds, only: four_bars
   use motion_checks, only: check_motion
   use nodal_eigensolver, only: most_round_off
   use plan_faults, only: report_problem
-  use reach_checks, only: check_reach, interval_words, reachable_intervals
+  use reach_checks, only: check_reach
   use reach_texts, only: longest_link, open_linkage_text
+  use response_linkage_checks, only: check_turn
   use rest_eigenvalues, only: lowest_rest_eigenvalues
   use round_off, only: round_off_error
   use sorting, only: ascending_order
@@ -99,7 +98,7 @@ contains
     report = report_number(model, "geometry")
     if (report > 0) call check_reach(model, mechanism, model%reports(report)%crank, leaving, &
       diagnostics)
-    call check_turn(model, mechanism, reach, diagnostics)
+    call check_turn(model, mechanism, diagnostics, reach)
     call check_balance_turn(model, mechanism, diagnostics)
     call check_motion(model, mechanism, reach, diagnostics)
     call check_matrices(model, mechanism, diagnostics)
@@ -165,39 +164,6 @@ contains
     if (longest > 0) place = model%links(mechanism%links(longest))%length_word
     call add_error(diagnostics, place, open_linkage_text(mechanism), kind=error_of_reach)
   end subroutine report_open_linkage
-
-  !> The elastic response is a steady state: the crank has to turn fully, without a dead point.
-  subroutine check_turn(model, mechanism, reach, diagnostics)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(reach_t), intent(in) :: reach
-    type(diagnostics_t), intent(inout) :: diagnostics
-
-    character(len=:), allocatable :: no_state
-    type(token_t) :: place
-    integer :: report
-
-    report = steady_state_report(model)
-    no_state = "the steady state"
-    if (report == 0 .and. needs_response(model) .and. allocated(mechanism%elastic)) then
-      ! Springs and dampers act in linkages in parts.
-      report = findloc(model%reports%kind%response, .true., dim=1)
-      no_state = "the motion, with springs or dampers,"
-    end if
-    if (report == 0) return
-    if (turns_fully(mechanism%linkage, through=.false.)) return
-    place = model%reports(report)%keyword
-    no_state = "; REPORT "//trim(model%reports(report)%kind%name)//" is on "//no_state//" of "// &
-      "a crank that turns fully, and there is none"
-    if (reach%least > 0.0_wp .or. reach%most < 180.0_wp) then
-      call add_error(diagnostics, place, "the crank turns only "//interval_words(model, &
-        reachable_intervals(mechanism, [0.0_wp], model%crank%value))//no_state, &
-        kind=error_of_reach)
-    else
-      call add_error(diagnostics, place, "the crank meets a dead point, where the links are in "// &
-        "line"//no_state, kind=error_of_reach)
-    end if
-  end subroutine check_turn
 
   !> Refuses more modes than the mesh has unknowns, or than SOLVER band finds of them.
   subroutine check_unknowns(model, mechanism, diagnostics)

@@ -1,17 +1,20 @@
-!> Checks of linkages that are no four-bars where the elastic response is asked for: which ones its
-!! equations are for.
+!> Checks where the elastic response is asked for: which linkages its equations are for, and whether
+!! the crank turns fully.
 module response_linkage_checks
   use diagnostics, only: add_error, diagnostics_t, has_errors
   use elastic_linkages, only: is_piece
   use errors, only: error_of_reach
+  use four_bar_limits, only: reach_t
   use full_turns, only: turns_fully
   use kinds, only: wp
   use mechanisms, only: mechanism_t
-  use models, only: drives_length, model_t, steady_state_report
+  use models, only: drives_length, model_t, needs_response, steady_state_report
+  use reach_checks, only: interval_words, reachable_intervals
+  use tokens, only: token_t
   implicit none (type, external)
   private
 
-  public :: check_running
+  public :: check_running, check_turn
 
 contains
 
@@ -38,28 +41,48 @@ contains
       call check_running_blocks(model, mechanism, report, diagnostics)
       if (has_errors(diagnostics)) return
     end if
-    i = steady_state_report(model)
-    if (i > 0) then
-      report = i
-      name = "the steady state"
-    else if (allocated(mechanism%elastic)) then
-      ! Border unknowns are smooth functions of the angle over a whole turn.
-      name = "the motion"
-    else
-      return
-    end if
-    if (turns_fully(mechanism%linkage, through=.false.)) return
-    name = "; REPORT "//trim(model%reports(report)%kind%name)//" is on "//name//" of a crank "// &
-      "that turns fully, and there is none; frequencies at positions do without"
-    if (drives_length(model)) then
-      call add_error(diagnostics, model%drives(1)%keyword, "the first DRIVE moves a slider "// &
-        "or a ram"//name, kind=error_of_reach)
-    else
-      call add_error(diagnostics, model%reports(report)%keyword, "the crank does not turn "// &
-        "fully, meets a dead point or a change point, or the links are elsewhere after a turn"// &
-        name, kind=error_of_reach)
-    end if
+    call check_turn(model, mechanism, diagnostics)
   end subroutine check_running
+
+  !> Whether the crank turns fully, without a dead point, where the elastic response asks for that.
+  pure subroutine check_turn(model, mechanism, diagnostics, reach)
+    type(model_t), intent(in) :: model                !! without errors so far
+    type(mechanism_t), intent(in) :: mechanism        !! of the model
+    type(diagnostics_t), intent(inout) :: diagnostics !! to which an error is added
+    type(reach_t), intent(in), optional :: reach      !! of the crank of a four-bar
+
+    character(len=:), allocatable :: motion, why
+    type(token_t) :: place
+    integer :: report
+
+    report = steady_state_report(model)
+    motion = "the steady state"
+    if (report == 0 .and. needs_response(model) .and. allocated(mechanism%elastic)) then
+      ! Border unknowns are smooth functions of the angle over a whole turn.
+      report = findloc(model%reports%kind%response, .true., dim=1)
+      motion = "the motion"
+      if (present(reach)) motion = "the motion, with springs or dampers,"
+    end if
+    if (report == 0) return
+    if (turns_fully(mechanism%linkage, through=.false.)) return
+    place = model%reports(report)%keyword
+    motion = "; REPORT "//trim(model%reports(report)%kind%name)//" is on "//motion//" of a "// &
+      "crank that turns fully, and there is none"
+    if (.not. present(reach)) motion = motion//"; frequencies at positions do without"
+    if (drives_length(model)) then
+      place = model%drives(1)%keyword
+      why = "the first DRIVE moves a slider or a ram"
+    else if (.not. present(reach)) then
+      why = "the crank does not turn fully, meets a dead point or a change point, or the links "// &
+        "are elsewhere after a turn"
+    else if (reach%least > 0.0_wp .or. reach%most < 180.0_wp) then
+      why = "the crank turns only "//interval_words(model, reachable_intervals(mechanism, &
+        [0.0_wp], model%crank%value))
+    else
+      why = "the crank meets a dead point, where the links are in line"
+    end if
+    call add_error(diagnostics, place, why//motion, kind=error_of_reach)
+  end subroutine check_turn
 
   !> Blocks that slide along links that bend: material moves through the functions of the pieces
   !! between the ends of the link and the block, which are those of slender uniform beams.
