@@ -4,8 +4,7 @@
 #       as bodies at COUNT + 1 positions, evenly: see shapes.awk
 #   places.sh motion FOLDER STRIDE COUNT SHARE
 #       as bodies at instants of its motion, the first row of motion.dat and every STRIDE rows, COUNT in all, with the time in place of the
-#       crank. What is fixed to a link moves with its pins, whose places are those of motion_pins.dat, or, without that table, of the motion
-#       computed once more
+#       crank
 #   places.sh modes FOLDER TABLE SPEED MODES CRANKS SIZE BAR PARTS
 #       as it swings in modes of shapes.dat, what stands still, blocks, springs and joints: see mode_places.awk. MODES and CRANKS are lists
 #       with commas; SIZE is the largest displacement drawn, BAR half the width of a bar, PARTS of the swing are drawn
@@ -44,14 +43,11 @@ case $kind in
         bodies -v share="$4" < "$geometry" ;;
     motion)
         card=$(grep -i '^REPORT *motion' echo.deck)
-        pins=motion_pins.dat
-        again=
-        if [ ! -f $pins ]; then
-            again=$(printf '%s\n' "$card" | sed 's/ *pins=no//I; s/^REPORT *motion/& pins=yes/I')
-            pins=$folder/drawn/$pins
-        fi
-        place "REPORT geometry $(printf '%s\n' "$card" | grep -io 'crank=[^ ]*' | head -n 1)" "$again"
-        awk -v stride="$1" -v count="$2" -f "$PLOTS/motion_places.awk" "$geometry" "$pins" | bodies -v share="$3" ;;
+        place "$card" "REPORT geometry $(printf '%s\n' "$card" | grep -io 'crank=[^ ]*' | head -n 1)"
+        awk -v stride="$1" -v count="$2" '
+            /^#/ || NF == 0 { next }
+            $1 "" != time { time = $1 ""; instant++ }
+            (instant - 1) % stride == 0 && instant <= stride * (count - 1) + 1' "$folder/drawn/motion_places.dat" | bodies -v share="$3" ;;
     modes)
         place "$(ask 'distinct =crank' "$1" | sort -g | awk -v cranks="$4" '
             BEGIN { n = split(cranks, crank, ",") }

@@ -5,7 +5,7 @@ module pose_types
   implicit none (type, external)
   private
 
-  public :: pose_t, kinematic_coefficients_t, drawn_pose, arm_to_pin, pins_of_body, &
+  public :: pose_t, kinematic_coefficients_t, drawn_pose, pose_of_pins, arm_to_pin, pins_of_body, &
     place_of_pin, way_length
 
   !> First and second derivatives with respect to the crank angle θ2.
@@ -37,9 +37,18 @@ contains
     real(wp), intent(in) :: origin(2)      !! from which pins are counted [m]
     type(pose_t) :: pose                   !! without `sine`
 
+    pose = pose_of_pins(linkage, linkage%drawing%pin - spread(origin, 2, size(linkage%is_ground)))
+  end function drawn_pose
+
+  !> The pose with pins at given places; bodies whose pins coincide lie along the global x axis.
+  pure function pose_of_pins(linkage, pin) result(pose)
+    type(linkage_t), intent(in) :: linkage !! its bodies
+    real(wp), intent(in) :: pin(:, :)      !! (2, pins) [m]
+    type(pose_t) :: pose                   !! without `sine`
+
     integer :: b
 
-    pose%pin = linkage%drawing%pin - spread(origin, 2, size(linkage%is_ground))
+    pose%pin = pin
     allocate (pose%direction(2, size(linkage%bodies)))
     do b = 1, size(linkage%bodies)
       associate (body => linkage%bodies(b), direction => pose%direction(:, b))
@@ -48,7 +57,7 @@ contains
         direction = direction/norm2(direction)
       end associate
     end do
-  end function drawn_pose
+  end function pose_of_pins
 
   !> Numbers of all pins of a body: first, last, further.
   pure function pins_of_body(body) result(pins)

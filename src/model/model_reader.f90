@@ -197,6 +197,8 @@ contains
             if (.not. report%with_pins) report%kind%tables(2) = table_kind_t()
             if (.not. report%with_forces) report%kind%tables(3) = table_kind_t()
           end if
+          if (report%kind%name == "geometry" .and. report_number(model, "motion") == 0) &
+            report%kind%tables(2) = table_kind_t()
           if (report%kind%name == "transient" .and. .not. has_gauge_histories(model)) &
             report%kind%tables(2) = table_kind_t()
           if (report%kind%name == "summary") call take_needs(reports, model, as_four_bar(model) &

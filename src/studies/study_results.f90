@@ -33,6 +33,7 @@ module study_results
     type(home_range_t) :: home
     type(transmission_range_t) :: transmission              !! of a four-bar
     type(geometry_result_t) :: geometry
+    type(geometry_result_t) :: motion_places                !! at the instants of a motion
     type(inertia_result_t) :: inertia
     type(point_coefficients_t), allocatable :: points(:, :) !! (points, states)
     type(joints_result_t) :: joints

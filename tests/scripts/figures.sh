@@ -501,20 +501,19 @@ END_OF_DECK
   drawn pins figures kinematics_accelerations kinematics_angles kinematics_velocities pin_motion
 }
 
-# What moves in an animation of a motion is where the program places it at the same position of the crank.
+# What moves in an animation of a motion is where the program places it at the same position of the crank, at every instant asked for.
 moving_places() {
-  sed 's/step=0.01/& pins=yes/' "$scratch/driven.deck" >"$scratch/paced.deck"
+  { cat "$scratch/driven.deck" && echo "REPORT geometry crank=30"; } >"$scratch/paced.deck"
   run 0 --quiet --out "$scratch/out" "$scratch/paced.deck" || return 1
   cranks=$(awk '!/^#/ && rows++ % 10 == 0 { printf "%s%.17g", (n++ ? "," : ""), $2 }' "$scratch/out/paced/motion.dat")
-  for crank in 30 "$cranks"; do
-    { sed '/^REPORT/d' "$scratch/driven.deck" && echo "REPORT geometry crank=$crank"; } >"$scratch/there.deck"
-    run 0 --quiet --out "$scratch/out" "$scratch/there.deck" || return 1
-    [ "$crank" != 30 ] || cp "$scratch/out/there/geometry.dat" "$scratch/geometry.30"
-  done
-  awk -v stride=10 -v count=4 -f plots/motion_places.awk "$scratch/geometry.30" "$scratch/out/paced/motion_pins.dat" >"$scratch/moved"
+  { sed '/^REPORT/d' "$scratch/driven.deck" && echo "REPORT geometry crank=$cranks"; } >"$scratch/there.deck"
+  run 0 --quiet --out "$scratch/out" "$scratch/there.deck" || return 1
+  awk '!/^#/ && NF { if ($1 "" != time) { time = $1 ""; n++ } if (n % 10 == 1) print }' "$scratch/out/paced/motion_places.dat" >"$scratch/moved"
   grep -v -e '^#' -e '^ *$' "$scratch/out/there/geometry.dat" | paste -d' ' "$scratch/moved" - | awk '
     $2 != $8 || $3 != $9 || $4 != $10 || ($5 - $11)^2 > 1e-12 || ($6 - $12)^2 > 1e-12 { print; exit 1 }
-    END { if (NR != 4*13) { print NR, "places"; exit 1 } }'
+    END { if (NR != 4*13) { print NR, "places"; exit 1 } }' || return 1
+  (cd "$scratch/out/driven" && FLEXMECH=$program PLOTS=$root/plots sh "$root/plots/places.sh" motion "$scratch/driven.shapes" 10 3 0.018) \
+    >"$scratch/told" && grep -q '^poses = 3;' "$scratch/told" && grep -q '^pose_crank\[3\] = 0.2;' "$scratch/told"
 }
 
 # Shapes of a position: two colours a link and a slider, two for pins; a plate has its corners' hull.

@@ -4,14 +4,13 @@ module motion_forces_report
   use joints_report, only: add_open_row, friction_note, owner_cell, plan_joints
   use kinds, only: wp
   use load_notes, only: append_load_notes
-  use motion_pins_report, only: time_in_table
+  use motion_pins_report, only: add_early_end, time_in_table
   use motion_study, only: undetermined_message
   use report_types, only: whole_table_t
-  use table_columns, only: cells, column_width, table_factor, table_layout_t
+  use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: decimal_cell, name_cell
   use text, only: append_string, string_t
-  use units, only: from_si
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -68,9 +67,8 @@ contains
             motion%force(:, k, i)))
         end do
       end do
-      if (allocated(motion%error)) call add_failed_row(rows, [from_si(motion%last%time, &
-        table_factor("time", variant%model%outputs))], motion%error%text)
     end associate
+    call add_early_end(variant, rows)
   end subroutine add_motion_forces
 
 end module motion_forces_report

@@ -13,7 +13,7 @@ module motion_pins_report
   implicit none (type, external)
   private
 
-  public :: motion_pins_table_t, time_in_table
+  public :: motion_pins_table_t, time_in_table, add_early_end
 
   !> `motion_pins.dat`.
   type, extends(whole_table_t) :: motion_pins_table_t
@@ -47,9 +47,8 @@ contains
       do i = 1, motion%count
         call add_instant(i, motion%samples(i)%pin)
       end do
-      if (allocated(motion%error)) call add_failed_row(rows, [from_si(motion%last%time, &
-        table_factor("time", variant%model%outputs))], motion%error%text)
     end associate
+    call add_early_end(variant, rows)
 
   contains
 
@@ -69,6 +68,17 @@ contains
     end subroutine add_instant
 
   end subroutine add_motion_pins
+
+  !> Appends a failed row if a motion ends before its end time.
+  subroutine add_early_end(variant, rows)
+    type(variant_results_t), intent(in) :: variant !! with its motion
+    type(rows_t), intent(inout) :: rows            !! of a table whose first column is the time
+
+    associate (motion => variant%found%motion)
+      if (allocated(motion%error)) call add_failed_row(rows, [from_si(motion%last%time, &
+        table_factor("time", variant%model%outputs))], motion%error%text)
+    end associate
+  end subroutine add_early_end
 
   !> Time of an instant in the unit of the table: the number that the deck has or would have.
   pure function time_in_table(model, number) result(time)

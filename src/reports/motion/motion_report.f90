@@ -8,7 +8,7 @@ module motion_report
   use load_notes, only: potential_note, work_note
   use models, only: drives_length, is_of_four_bar, model_t, report_number
   use motion_forces_report, only: motion_forces_table_t
-  use motion_pins_report, only: motion_pins_table_t, time_in_table
+  use motion_pins_report, only: add_early_end, motion_pins_table_t, time_in_table
   use motion_study, only: free_drives, motion_result_t, motion_tolerance, undetermined_message
   use motor_cards, only: is_geared, motor_t
   use plan_words, only: group_names
@@ -252,9 +252,8 @@ contains
         end if
         call add_row(rows, decimal_cell(time_in_table(model, i))//row)
       end do
-      if (allocated(motion%error)) call add_failed_row(rows, [from_si(motion%last%time, &
-        table_factor("time", model%outputs))], motion%error%text)
     end associate
+    call add_early_end(variant, rows)
   end subroutine add_motion
 
   !> Whether an instant has the values that `columns=` adds to its row.

@@ -33,7 +33,7 @@ module rigid_studies
   implicit none (type, external)
   private
 
-  public :: add_rigid_studies
+  public :: add_rigid_studies, places_of
 
 contains
 
@@ -94,7 +94,7 @@ contains
 
   !> Places of points, from the first pins of their bodies, in their axes [m].
   pure function places_of(points) result(places)
-    type(body_point_t), intent(in) :: points(:)
+    type(body_point_t), intent(in) :: points(:) !! of the deck
     real(wp) :: places(2, size(points))
 
     integer :: i

@@ -4,6 +4,7 @@ module study_of_motion
   use drives, only: motor_drive_t
   use errors, only: error_of_input, error_of_numerics, error_t, set_error
   use gears, only: gear_t
+  use geometry_study, only: find_moving_geometry
   use joints_report, only: open_words
   use kinds, only: wp
   use models, only: model_t, motion_goes_through, report_number
@@ -12,6 +13,7 @@ module study_of_motion
   use motor_cards, only: motor_t
   use named_parts, only: name_parts
   use progress, only: show_progress
+  use rigid_studies, only: places_of
   use run_findings, only: findings_t
   use run_totals, only: run_totals_t
   use study_findings, only: note_failure
@@ -43,7 +45,8 @@ contains
 
     type(motion_under_way_t) :: under_way
 
-    associate (mechanism => run%results%mechanism, motion => run%results%found%motion)
+    associate (mechanism => run%results%mechanism, motion => run%results%found%motion, &
+        points => run%results%mechanism%points)
       call begin_motion(motion_request_of(run%results%model), mechanism%linkage, &
         mechanism%load_elements, under_way, motion, mechanism%structure_t)
       do while (.not. under_way%is_over)
@@ -52,6 +55,9 @@ contains
       end do
       call finish_motion(under_way, motion)
       call name_parts(run%results, motion%error)
+      if (report_number(run%results%model, "geometry") > 0) call find_moving_geometry( &
+        mechanism%linkage, points%body, places_of(points), motion%samples(:motion%count), &
+        run%results%found%motion_places)
     end associate
   end subroutine compute_motion
 
@@ -65,7 +71,7 @@ contains
       request%speed = asked%start_speed
       request%end_time = asked%end_time
       request%instants = asked%instants%value
-      request%with_pins = asked%with_pins
+      request%with_pins = asked%with_pins .or. report_number(model, "geometry") > 0
       request%through = motion_goes_through(model)
       request%with_forces = asked%with_forces
       request%with_details = asked%with_accelerations .or. asked%with_forces .or. asked%with_power
@@ -173,8 +179,10 @@ contains
     report = report_number(model, "motion")
     if (report == 0) return
     pins = 0
-    if (model%reports(report)%with_pins) pins = sum([(size(model%links(i)%pins), &
-      i=1, size(model%links))])
+    if (model%reports(report)%with_pins .or. report_number(model, "geometry") > 0) &
+      pins = sum([(size(model%links(i)%pins), i=1, size(model%links))])
+    if (report_number(model, "geometry") > 0) pins = 2*pins + size(model%points) + &
+      size(model%sliders)
     columns = 0
     associate (asked => model%reports(report))
       if (asked%with_accelerations) columns = max(3, size(model%drives))

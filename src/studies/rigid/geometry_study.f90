@@ -1,17 +1,20 @@
-!> Places of pins and points at any crank angles, for drawings of a linkage.
+!> Places of pins and points at any crank angles, and at the instants of a motion, for drawings of a
+!! linkage.
 module geometry_study
-  use errors, only: error_t, outcome_t
+  use errors, only: outcome_t
   use kinds, only: wp
+  use linkage_samples, only: linkage_sample_t
   use linkages, only: linkage_t, turned
+  use pose_types, only: pose_of_pins
   use poses, only: arm_to_place, place_links, pose_t
   implicit none (type, external)
   private
 
-  public :: geometry_result_t, find_geometry
+  public :: geometry_result_t, find_geometry, find_moving_geometry
 
   !> Places are zero where the linkage cannot be placed.
   type :: geometry_result_t
-    real(wp), allocatable :: crank(:)          !! (positions) [deg]
+    real(wp), allocatable :: crank(:)          !! (positions) [deg]; none of a motion
     type(outcome_t), allocatable :: outcome(:) !! (positions) why the linkage cannot be placed
     real(wp), allocatable :: pin(:, :, :)      !! (2, pins, positions) in global axes [m]
     real(wp), allocatable :: point(:, :, :)    !! (2, points, positions) in global axes [m]
@@ -33,45 +36,68 @@ contains
     integer, intent(in) :: threads                !! number of OpenMP threads
     type(geometry_result_t), intent(out) :: found !! in the order of `crank`
 
+    type(pose_t) :: pose
     integer :: i
 
+    call make_room(linkage, size(body), size(crank), found)
     found%crank = crank
-    allocate (found%outcome(size(crank)), found%pin(2, size(linkage%is_ground), size(crank)), &
-      found%point(2, size(body), size(crank)), found%ahead(2, size(linkage%sliders), size(crank)))
-    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
+    !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i, pose)
     do i = 1, size(crank)
-      call place_all(linkage, body, place, crank(i), found%pin(:, :, i), found%point(:, :, i), &
-        found%ahead(:, :, i), found%outcome(i)%error)
+      call place_links(linkage, crank(i), pose, found%outcome(i)%error)
+      if (.not. allocated(found%outcome(i)%error)) call place_all(linkage, body, place, pose, i, &
+        found)
     end do
     !$omp end parallel do
   end subroutine find_geometry
 
-  !> Places pins, points and what is ahead of sliders at one crank angle.
-  pure subroutine place_all(linkage, body, place, crank, pin, point, ahead, error)
+  !> Places the links where a motion has been. No errors.
+  pure subroutine find_moving_geometry(linkage, body, place, samples, found)
+    type(linkage_t), intent(in) :: linkage           !! that moves
+    integer, intent(in) :: body(:)                   !! (points) as of `find_geometry`
+    real(wp), intent(in) :: place(:, :)              !! (2, points) likewise [m]
+    type(linkage_sample_t), intent(in) :: samples(:) !! with places of the pins
+    type(geometry_result_t), intent(out) :: found    !! in the order of `samples`
+
+    integer :: i
+
+    call make_room(linkage, size(body), size(samples), found)
+    do i = 1, size(samples)
+      call place_all(linkage, body, place, pose_of_pins(linkage, samples(i)%pin), i, found)
+    end do
+  end subroutine find_moving_geometry
+
+  !> Places of zero.
+  pure subroutine make_room(linkage, points, positions, found)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: points, positions !! how many
+    type(geometry_result_t), intent(out) :: found
+
+    allocate (found%outcome(positions))
+    allocate (found%pin(2, size(linkage%is_ground), positions), found%point(2, points, positions), &
+      found%ahead(2, size(linkage%sliders), positions), source=0.0_wp)
+  end subroutine make_room
+
+  !> Places pins, points and what is ahead of sliders at one position.
+  pure subroutine place_all(linkage, body, place, pose, position, found)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: body(:)
-    real(wp), intent(in) :: place(:, :), crank
-    real(wp), intent(out) :: pin(:, :), point(:, :), ahead(:, :)
-    type(error_t), allocatable, intent(out) :: error
+    real(wp), intent(in) :: place(:, :)
+    type(pose_t), intent(in) :: pose    !! of pins and bodies
+    integer, intent(in) :: position     !! its number
+    type(geometry_result_t), intent(inout) :: found
 
-    type(pose_t) :: pose
     integer :: p, i
 
-    pin = 0.0_wp
-    point = 0.0_wp
-    ahead = 0.0_wp
-    call place_links(linkage, crank, pose, error)
-    if (allocated(error)) return
-    pin = pose%pin
+    found%pin(:, :, position) = pose%pin
     do p = 1, size(body)
-      point(:, p) = pose%pin(:, linkage%bodies(body(p))%first_pin) + &
+      found%point(:, p, position) = pose%pin(:, linkage%bodies(body(p))%first_pin) + &
         arm_to_place(pose, body(p), place(:, p))
     end do
     do i = 1, size(linkage%sliders)
-      associate (slider => linkage%sliders(i))
-        ahead(:, i) = slider%direction
-        if (slider%body > 0) ahead(:, i) = turned(slider%direction, pose%direction(:, slider%body))
-        ahead(:, i) = pose%pin(:, slider%pin) + ahead(:, i)
+      associate (slider => linkage%sliders(i), ahead => found%ahead(:, i, position))
+        ahead = slider%direction
+        if (slider%body > 0) ahead = turned(slider%direction, pose%direction(:, slider%body))
+        ahead = pose%pin(:, slider%pin) + ahead
       end associate
     end do
   end subroutine place_all
