@@ -385,7 +385,11 @@ plan_frequencies() {
 # still, blocks and springs.
 plan_modes() {
     if [ $linkage != four_bar ] || grep -q '^\(SPRING\|DAMPER\) ' echo.deck 2> /dev/null; then
-        can_place && settings="$settings; is_placed = 1"
+        if [ ! -f shape_pins.dat ]; then
+            remark 'blocks, springs and joints of modes need shape_pins.dat, which REPORT shapes writes'
+        else
+            can_place && settings="$settings; is_placed = 1"
+        fi
     fi
     [ -n "${animate-}" ] || [ "$(ask 'distinct mode crank' shapes.dat | wc -l)" -eq 1 ] || plan_speeds modes modes shapes.dat -
     ask 'distinct mode crank speed' shapes.dat | named | while read -r mode _ crank crank_name speed speed_name; do

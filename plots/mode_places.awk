@@ -1,12 +1,11 @@
 # A linkage as it swings in modes, as rows of geometry.dat: every position at rest, then displaced in its modes, with the number of the pose in
 # the place of the crank.
-#   awk -v folder=FOLDER -v speed=S -v modes=M,… -v cranks=C,… -v size=L -v parts="P …" -f mode_places.awk geometry.dat echo.deck shapes.dat
+#   awk -v folder=FOLDER -v speed=S -v modes=M,… -v cranks=C,… -v size=L -v parts="P …" -f mode_places.awk geometry.dat shape_pins.dat shapes.dat
 # size is the largest displacement drawn; every mode is drawn at these parts of its swing.
-# Behind them two poses are for the guides of a position alone, whose blocks are on either side by that size. A place of a link moves with the
-# point of its axis that is nearest, and turns about it; a block on a link turns with its axis. Files:
+# Behind them two poses are for the guides of a position alone, whose blocks are on either side by that size. Files:
 #   FOLDER/modes    gnuplot assignments: of every mode, in the order of the table, rest_pose[k] and mode_pose[k], the pose at rest and
 #                   the first displaced one; joints and arms, their numbers in a pose; helds, that of joints and blocks which drives hold, block_held[k] of
-#                   every slider; and the block $clamps, a line a mode: x, y and direction in degrees of every link that its drive clamps to the ground
+#                   every slider; and the block $clamps, a line a mode: x, y and direction in degrees of every link that is clamped to the ground
 #   FOLDER/joints   an index a pose: x, y, and 1 for a pin, 2 for one that a drive holds
 #   FOLDER/arms     an index a pose: lines from the axis of a link to pins beside it
 # A ground pin where a link is clamped is none of the rows: no pivot is drawn there.
@@ -25,41 +24,36 @@ FILENAME ~ /geometry\.dat$/ {
     x0[positions, k] = $5 + 0; y0[positions, k] = $6 + 0
     if (positions > 1) next
     link[k] = $2 ""; what[k] = $3; place[k] = $4 ""
-    if ($3 == "slider") { blocks[$4]++; slider[++sliders] = $4; on[sliders] = $2 }
-    if ($3 == "spring" || $3 == "damper") spring_end[$4] = 1
-    if ($3 != "pin" && $3 != "point") next
-    if ($2 == "(ground)") { is_ground[$4] = 1; next }
-    if (!(($2, $4) in holds)) { holds[$2, $4] = ++places[$2]; place_of[$2, places[$2]] = $4; links_at[$4]++ }
-    next
-}
-
-FILENAME ~ /echo\.deck$/ {
-    sub(/ *!.*/, "")
-    if ($1 == "WELD") apart[$2] -= NF - 3
-    if ($1 == "SLIDER" && NF >= 4 && $4 !~ /=/) apart[$2]--
-    if ($1 == "CLAMP" && NF > 2) clamp($3, $2)
-    if ($1 == "CLAMP" && NF == 2) for (name in places) clamp(name, $2)
-    if ($1 != "DRIVE") next
-    for (i = 3; i <= NF; i++) if ($i == "free") next
-    if ($3 == "against") hold($2, $4)
-    else if (NF < 3 || $3 ~ /=/) clamp($2)
-    else if ($3 != "length") held_block[$2, $3] = 1
+    if ($3 == "slider") { slider[++sliders] = $4; on[sliders] = $2; is_block[$4, $2] = 1 }
+    if ($3 == "spring" || $3 == "damper") is_joint[$4] = 1
+    if ($3 == "pin" && $2 != "(ground)") is_link[$2] = 1
     next
 }
 
 # Names of columns stand above their units, the last line of the head but one.
-/^#/ { if (!stations) for (i = 2; i <= NF; i++) if ($i == "ux") { for (k = 2; k <= NF; k++) at[$k] = k - 1 }; next }
+/^#/ { for (i = 2; i <= NF; i++) if ($i == "ux") for (k = 2; k <= NF; k++) at[$k] = k - 1; next }
 NF == 0 || !same($at["speed"], speed) || index("," modes ",", "," ($at["mode"] + 0) ",") == 0 || !is_wanted($at["crank"]) { next }
+{ key = $at["mode"] " " $at["crank"] }
+
+FILENAME ~ /shape_pins\.dat$/ {
+    p = $at["pin"] ""
+    name = $at["link"] ""
+    u[key, p] = $at["ux"] + 0; v[key, p] = $at["uy"] + 0; turn[key, p, name] = $at["rotation"] + 0
+    if ($at["joint"] == "pinned") is_joint[p] = 1
+    if ($at["joint"] == "clamped" && !(p in clamped)) { clamped[p] = name; clamp_at[++clamps] = p }
+    if ($at["joint"] == "driven" && (p, name) in is_block) held_block[p, name] = 1
+    else if ($at["joint"] == "driven") is_joint[p] = held[p] = 1
+    next
+}
 
 {
-    key = $at["mode"] " " $at["crank"]
     if (key != shape) take_shape()
     shape = key
     shape_crank = $at["crank"] + 0
     n = ++stations
-    on_link[n] = $at["link"] ""
-    if (!(on_link[n] in from)) from[on_link[n]] = n
-    to[on_link[n]] = n
+    on_link = $at["link"] ""
+    if (!(on_link in from)) from[on_link] = n
+    to[on_link] = n
     sx[n] = $at["x"] + 0; sy[n] = $at["y"] + 0; su[n] = $at["ux"] + 0; sv[n] = $at["uy"] + 0
     moved = sqrt(su[n]^2 + sv[n]^2)
     if (moved > most) most = moved
@@ -76,36 +70,12 @@ function is_wanted(crank,    i) {
     return 0
 }
 
-# Drives that are not free hold what they drive, at its ground pivot; clamps hold links at theirs.
-function clamp(name, pin,    k, p) {
-    for (k = 1; k <= places[name]; k++) {
-        p = place_of[name, k]
-        if (!(p in is_ground) || p in clamped || pin != "" && p != pin) continue
-        clamped[p] = name ""
-        apart[p]--
-        clamp_at[++clamps] = p
-    }
-}
-
-function hold(one, other,    k, p) {
-    for (k = 1; k <= places[one]; k++) {
-        p = place_of[one, k]
-        if (!((other, p) in holds)) continue
-        held[p] = 1
-        apart[p]--
-    }
-}
-
-# Links, blocks and the ground that turn on each other at a pin, or a spring is hooked in there.
-function is_joint(p) { return links_at[p] + blocks[p] + (p in is_ground) + apart[p] > 1 || p in spring_end }
-
 # ---- Modes ----
 
 function take_shape(    position, k, scale) {
     if (!stations) return
     for (position = 1; position <= positions; position++) if (same(crank_of[position], shape_crank)) break
     if (position <= positions) {
-        find_displacements(position)
         if (!(position in rest)) rest[position] = draw(position, 0)
         rest_of[++shapes] = rest[position]
         scale = most > 0 ? size / most : 0
@@ -120,72 +90,30 @@ function take_shape(    position, k, scale) {
     split("", to)
 }
 
-function find_displacements(position,    k) {
-    split("", u_of)
-    split("", v_of)
-    for (k = 1; k <= rows[position]; k++) {
-        if (what[k] != "pin" && what[k] != "point" || link[k] == "(ground)") continue
-        if (!(link[k] in from)) continue
-        nearest(link[k], x0[position, k], y0[position, k])
-        is_beside[k] = beside > 1e-6 * size
-        u_of[place[k]] = place[k] in is_ground ? 0 : near_u
-        v_of[place[k]] = place[k] in is_ground ? 0 : near_v
-    }
-    for (k = 1; k <= rows[position]; k++) {
-        turns[k] = what[k] == "ahead" && link[k] in from
-        if (!turns[k]) continue
-        nearest(link[k], x0[position, k - 1], y0[position, k - 1])
-        way_x[k] = near_x; way_y[k] = near_y; way_u[k] = slope_u; way_v[k] = slope_v
-    }
-}
-
-# Of the axis of a link, the point nearest to x y: how x y moves with it, and its direction with the change of that.
-function nearest(name, x, y,    i, dx, dy, long, t, away, turn) {
-    beside = -1
-    for (i = from[name]; i < to[name]; i++) {
-        dx = sx[i + 1] - sx[i]; dy = sy[i + 1] - sy[i]
-        long = sqrt(dx * dx + dy * dy)
-        if (long < 1e-9 * size) continue
-        t = ((x - sx[i]) * dx + (y - sy[i]) * dy) / (long * long)
-        t = t < 0 ? 0 : t > 1 ? 1 : t
-        away = sqrt((x - sx[i] - t * dx)^2 + (y - sy[i] - t * dy)^2)
-        if (beside >= 0 && away >= beside) continue
-        beside = away
-        near_x = dx / long; near_y = dy / long
-        slope_u = (su[i + 1] - su[i]) / long; slope_v = (sv[i + 1] - sv[i]) / long
-        turn = near_x * slope_v - near_y * slope_u
-        near_u = su[i] + t * (su[i + 1] - su[i]) - turn * (y - sy[i] - t * dy)
-        near_v = sv[i] + t * (sv[i + 1] - sv[i]) + turn * (x - sx[i] - t * dx)
-    }
-}
-
 # ---- Poses ----
 
-function draw(position, scale,    k, x, y, c, s, size_of) {
+function draw(position, scale,    k, x, y) {
     poses++
     if (poses > 1) { printf "\n\n" > (folder "/joints"); printf "\n\n" > (folder "/arms") }
     split("", is_marked)
     joints = arms = 0
     for (k = 1; k <= rows[position]; k++) {
-        x = x0[position, k] + scale * u_of[place[k]]
-        y = y0[position, k] + scale * v_of[place[k]]
+        x = x0[position, k] + scale * u[shape, place[k]]
+        y = y0[position, k] + scale * v[shape, place[k]]
         if (what[k] == "ahead") {
-            c = 1; s = 0
-            if (turns[k]) {
-                c = 1 + scale * (way_x[k] * way_u[k] + way_y[k] * way_v[k])
-                s = scale * (way_x[k] * way_v[k] - way_y[k] * way_u[k])
-                size_of = sqrt(c * c + s * s)
-                c /= size_of; s /= size_of
-            }
-            x += (c - 1) * (x0[position, k] - x0[position, k - 1]) - s * (y0[position, k] - y0[position, k - 1])
-            y += s * (x0[position, k] - x0[position, k - 1]) + (c - 1) * (y0[position, k] - y0[position, k - 1])
+            x -= scale * turn[shape, place[k], link[k]] * (y0[position, k] - y0[position, k - 1])
+            y += scale * turn[shape, place[k], link[k]] * (x0[position, k] - x0[position, k - 1])
         }
         row(k, x, y)
-        if (what[k] != "ahead" && what[k] != "side" && !is_marked[place[k]]++ && (place[k] in held || is_joint(place[k]))) {
+        if (what[k] == "ahead" || what[k] == "side") continue
+        if (place[k] in is_joint && !is_marked[place[k]]++) {
             joints++
             printf "%.9g %.9g %d\n", x, y, place[k] in held ? 2 : 1 > (folder "/joints")
         }
-        if (is_beside[k] && (what[k] == "pin" || place[k] in spring_end)) { arm(x, y, from[link[k]], scale); arm(x, y, to[link[k]], scale) }
+        if ((what[k] == "pin" || what[k] == "point" && place[k] in is_joint) && is_beside(link[k], x0[position, k], y0[position, k])) {
+            arm(x, y, from[link[k]], scale)
+            arm(x, y, to[link[k]], scale)
+        }
     }
     return poses
 }
@@ -193,6 +121,19 @@ function draw(position, scale,    k, x, y, c, s, size_of) {
 function row(k, x, y) {
     if (link[k] == "(ground)" && place[k] in clamped) return
     print poses, link[k], what[k], place[k], sprintf("%.12g %.12g", x, y)
+}
+
+function is_beside(name, x, y,    i, dx, dy, t, away, least) {
+    least = -1
+    for (i = from[name]; name in to && i < to[name]; i++) {
+        dx = sx[i + 1] - sx[i]; dy = sy[i + 1] - sy[i]
+        if (dx * dx + dy * dy < (1e-9 * size)^2) continue
+        t = ((x - sx[i]) * dx + (y - sy[i]) * dy) / (dx * dx + dy * dy)
+        t = t < 0 ? 0 : t > 1 ? 1 : t
+        away = (x - sx[i] - t * dx)^2 + (y - sy[i] - t * dy)^2
+        if (least < 0 || away < least) least = away
+    }
+    return least > (1e-6 * size)^2
 }
 
 function arm(x, y, i, scale) {
@@ -204,8 +145,7 @@ function arm(x, y, i, scale) {
 function limits(shift,    k, there, way) {
     poses++
     for (k = 1; k <= rows[1]; k++) {
-        there = what[k] == "slider" ? k + 1 : what[k] == "ahead" ? k : 0
-        if (places[link[k]]) there = 0
+        there = link[k] in is_link ? 0 : what[k] == "slider" ? k + 1 : what[k] == "ahead" ? k : 0
         way = there ? sqrt((x0[1, there] - x0[1, there - 1])^2 + (y0[1, there] - y0[1, there - 1])^2) : 1
         row(k, x0[1, k] + (there ? shift * (x0[1, there] - x0[1, there - 1]) / way : 0), \
             y0[1, k] + (there ? shift * (y0[1, there] - y0[1, there - 1]) / way : 0))

@@ -6,7 +6,7 @@
 #       as bodies at instants of its motion, the first row of motion.dat and every STRIDE rows, COUNT in all, with the time in place of the
 #       crank
 #   places.sh modes FOLDER TABLE SPEED MODES CRANKS SIZE BAR PARTS
-#       as it swings in modes of shapes.dat, what stands still, blocks, springs and joints: see mode_places.awk. MODES and CRANKS are lists
+#       as it swings in modes of shapes.dat and shape_pins.dat, what stands still, blocks, springs and joints: see mode_places.awk. MODES and CRANKS are lists
 #       with commas; SIZE is the largest displacement drawn, BAR half the width of a bar, PARTS of the swing are drawn
 #   places.sh four_bar FOLDER BLOCK ANGLES [points.dat or response.dat]
 #       as rows of pins and points at some angles: see geometry.awk. ANGLES is a file, a position a line: the crank angle in degrees, then
@@ -57,7 +57,7 @@ case $kind in
             }
             END { print "REPORT geometry crank=" list }')"
         awk -v folder="$folder" -v speed="$2" -v modes="$3" -v cranks="$4" -v size="$5" -v parts="$7" -f "$PLOTS/mode_places.awk" \
-            "$geometry" echo.deck "$1" | bodies -v bar="$6" || exit 1
+            "$geometry" "${1%shapes.dat}shape_pins.dat" "$1" | bodies -v bar="$6" || exit 1
         cat "$folder/modes" ;;
     four_bar)
         # The program takes an angle once: nearer to each other than it tells apart, they are one position.

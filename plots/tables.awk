@@ -339,7 +339,7 @@ function may_lack(column) {
 }
 
 function has_names(column) {
-    return column ~ /^(branch|drive|event|gauge|kind|link|linkage|modes|part|pin|place|point|quantity|unit|verdict)$/
+    return column ~ /^(branch|drive|event|gauge|joint|kind|link|linkage|modes|part|pin|place|point|quantity|unit|verdict)$/
 }
 
 # Once for every column; what is odd is shown as far as a terminal should see it.

@@ -33,7 +33,7 @@ import glob, os, sys
 grid, plain = sys.argv[1:]
 variants = [(b, c) for b in ("270", "280.5") for c in ("260", "270", "280")]  # the last varies fastest
 tables = sorted(os.path.basename(path) for path in glob.glob(os.path.join(grid, "*.dat")))
-assert len(tables) == 6, tables
+assert len(tables) == 7, tables
 
 def read(*path):
     with open(os.path.join(*path), encoding="utf-8", newline="") as file:

@@ -1,24 +1,28 @@
-!> `frequencies.dat` and `shapes.dat`: natural frequencies with their estimated errors, mode
-!! shapes.
+!> `frequencies.dat`, `shapes.dat` and `shape_pins.dat`: natural frequencies with their estimated
+!! errors, mode shapes.
 module frequency_report
   use drive_positions, only: shown_crank
   use errors, only: error_t
-  use frequency_study, only: damping_values, failure_at, find_stations, frequency_values, &
-    has_result, link_of_part
+  use frequency_study, only: damping_values, failure_at, find_displacements, &
+    find_stations, frequency_values, has_result, link_of_part
+  use joint_kinds, only: joint_words, kinds_of_joints
+  use joint_study, only: joint_t, list_joints
+  use joints_report, only: owner_cell, plan_joints
   use kinds, only: wp
   use load_notes, only: acceleration_note
   use mechanisms, only: mechanism_t
   use models, only: effects_static, inertia_distributed, inertia_lumped, is_damped, is_loaded, &
     is_moving, is_sprung, model_t, needs_loads, report_number, speed_in_table
+  use points_report, only: point_names
   use report_cards, only: report_t
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, fit_columns, plan_links, position_table_t, report_record_t, &
     table_plan_t
-  use table_columns, only: cells, column_width, table_factor, table_layout_t
+  use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: integer_cell, name_cell
-  use text, only: append_string, string_t, to_string
-  use units, only: to_si, unit_t
+  use text, only: append_string, string_t, to_string, trimmed_list
+  use units, only: to_si
   use value_lists, only: value_list_t, value_number
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -45,6 +49,15 @@ module frequency_report
     procedure, nopass :: add_position => add_shapes
   end type shape_table_t
 
+  !> `shape_pins.dat`.
+  type, extends(position_table_t) :: shape_pins_table_t
+  contains
+    procedure, nopass :: find_notes => shape_pins_notes
+    procedure, nopass :: plan => plan_shape_pins
+    procedure, nopass :: count_speeds => speeds_of_sweep
+    procedure, nopass :: add_position => add_shape_pins
+  end type shape_pins_table_t
+
 contains
 
   !> REPORT frequencies.
@@ -67,6 +80,8 @@ contains
       studies="frequencies", positions=.true., beams=.true., frequencies=.true., reserved=.true.)
     call add_table(report, shape_table_t(), "shapes", "speed:speed crank:deg mode:# "// &
       "frequency:Hz link:name s,x,y:length ux,uy:mass^-1/2 rotation:rotation")
+    call add_table(report, shape_pins_table_t(), "shape_pins", "speed:speed crank:deg mode:# "// &
+      "pin,link,joint:name x,y:length ux,uy:mass^-1/2 rotation:rotation")
   end subroutine describe_shapes
 
   !> Effects in the equations, motions that nothing holds, and the meaning of the error columns.
@@ -315,13 +330,9 @@ contains
     real(wp), intent(in) :: station(:, :, :) !! (3, points, parts) by `find_stations` [m]
     type(rows_t), intent(inout) :: rows
 
-    type(unit_t) :: length
-    real(wp) :: displacement(3), scale, place(2)
+    real(wp) :: place(2)
     integer :: part, link, before, i, state
 
-    ! Displacements of a normalised mode have the unit mass^(-1/2).
-    scale = sqrt(to_si(1.0_wp, table_factor("mass", variant%model%outputs)))
-    length = table_factor("length", variant%model%outputs)
     state = variant%found%positions%state(position)
     place = [shown_speed(variant, speed), variant%found%positions%crank(position)]
     associate (shape => variant%found%sweep%results(state)%shapes(speed)%displacement)
@@ -331,15 +342,107 @@ contains
         if (before > 0 .and. link /= before) call add_gap(rows, 1)
         before = link
         do i = 1, size(shape, 2)
-          displacement = scale*shape(:, i, part, mode)
-          displacement(3) = to_si(displacement(3), length)
           call add_row(rows, cells(layout, 1, place)//integer_cell(mode, "mode")// &
             cells(layout, 4, [frequency])//name_cell(variant%mechanism%names(link)%text, &
-            column_width(layout, 5))//cells(layout, 6, [station(:, i, part), displacement]))
+            column_width(layout, 5))//cells(layout, 6, [station(:, i, part), shown_displacement( &
+            variant, shape(:, i, part, mode))]))
         end do
       end do
     end associate
   end subroutine add_mode
+
+  !> A displacement of a normalised mode, which has the unit mass^(-1/2), and a rotation.
+  pure function shown_displacement(variant, displacement) result(shown)
+    type(variant_results_t), intent(in) :: variant
+    real(wp), intent(in) :: displacement(3) !! as of `shapes_t`
+    real(wp) :: shown(3)
+
+    shown = sqrt(to_si(1.0_wp, table_factor("mass", variant%model%outputs)))*displacement
+    shown(3) = to_si(shown(3), table_factor("length", variant%model%outputs))
+  end function shown_displacement
+
+  !> Effects in the equations, rows, what holds joints.
+  pure subroutine shape_pins_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant       !! with its mechanism
+    type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
+
+    notes = effects_notes(variant%model)
+    call append_string(notes, "shapes are normalised: phi' M phi = 1; every link at its pins, "// &
+      "then blocks, which move with their pin and turn with their line")
+    if (size(rigid_points(variant)) > 0) call append_string(notes, "then POINTs of rigid links")
+    call append_string(notes, "joint: clamped to the ground, driven against another link or "// &
+      "along its line, welded to all that is there, pinned to it, free where nothing is")
+  end subroutine shape_pins_notes
+
+  !> The POINTs of rigid links.
+  pure function rigid_points(variant) result(list)
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
+    integer, allocatable :: list(:)                !! their numbers
+
+    integer :: p
+
+    associate (points => variant%mechanism%points, bodies => variant%mechanism%linkage%bodies)
+      list = pack([(p, p=1, size(points))], .not. bodies(points%body)%bends)
+    end associate
+  end function rigid_points
+
+  !> Appends the rows of all joints, and of points of rigid links, for every mode at a position and
+  !! speed, or one failed row. Two empty lines between modes.
+  subroutine add_shape_pins(variant, layout, position, speed, rows)
+    type(variant_results_t), intent(in) :: variant !! with its sweep computed
+    type(table_layout_t), intent(in) :: layout     !! of this table
+    integer, intent(in) :: position                !! number in the deck's list
+    integer, intent(in) :: speed                   !! number in the sweep's list
+    type(rows_t), intent(inout) :: rows            !! to which they are appended
+
+    type(joint_t), allocatable :: joints(:)
+    integer, allocatable :: kinds(:), points(:)
+    real(wp), allocatable :: x(:, :), moved(:, :, :)
+    real(wp) :: places(2, size(variant%mechanism%points))
+    integer :: mode, i
+
+    associate (found => variant%found, mechanism => variant%mechanism, &
+        state => variant%found%positions%state(position))
+      if (.not. has_result(found%positions, found%sweep, state, speed)) then
+        call add_failed(variant, position, speed, rows)
+        return
+      end if
+      call list_joints(mechanism%linkage, joints)
+      kinds = kinds_of_joints(mechanism%linkage, joints)
+      points = rigid_points(variant)
+      do i = 1, size(places, 2)
+        places(:, i) = mechanism%points(i)%place
+      end do
+      call find_displacements(mechanism%structure_t, found%positions%states(state), joints, &
+        mechanism%points(points)%body, places(:, points), &
+        found%sweep%results(state)%shapes(speed)%displacement, x, moved)
+      do mode = 1, variant%model%modes
+        if (mode > 1) call add_gap(rows, 2)
+        do i = 1, size(joints)
+          call add_place(mechanism%pin_names(joints(i)%pin)%text, owner_cell(variant, joints(i), &
+            column_width(layout, 5)), trim(joint_words(kinds(i))))
+        end do
+        do i = size(joints) + 1, size(x, 2)
+          associate (point => mechanism%points(points(i - size(joints))))
+            call add_place(point%name, name_cell(mechanism%names(point%body)%text, &
+              column_width(layout, 5)), "free")
+          end associate
+        end do
+      end do
+    end associate
+
+  contains
+
+    subroutine add_place(name, link, joint)
+      character(len=*), intent(in) :: name, link, joint
+
+      call add_row(rows, cells(layout, 1, [shown_speed(variant, speed), &
+        variant%found%positions%crank(position)])//integer_cell(mode, "mode")//name_cell(name, &
+        column_width(layout, 4))//link//name_cell(joint, column_width(layout, 6))// &
+        cells(layout, 7, [x(:, i), shown_displacement(variant, moved(:, i, mode))]))
+    end subroutine add_place
+
+  end subroutine add_shape_pins
 
   !> A column for every mode.
   subroutine plan_frequencies(variant, plan)
@@ -358,6 +461,24 @@ contains
     plan%drawn = drawn_rows(variant)
     plan%items = size(plan%drawn, 2)
   end subroutine plan_shapes
+
+  !> The names of pins and points, links and guides, joints.
+  subroutine plan_shape_pins(variant, plan)
+    type(variant_results_t), intent(in) :: variant !! with its results
+    type(table_plan_t), intent(inout) :: plan      !! of the table
+
+    type(name_list_t) :: points
+    integer :: i
+
+    call plan_shapes(variant, plan)
+    call plan_joints(variant, plan)
+    points = point_names(variant)
+    do i = 1, size(points%names)
+      call append_string(plan%names(1)%names, points%names(i)%text)
+    end do
+    plan%names(3)%column = "joint"
+    plan%names(3)%names = trimmed_list(joint_words)
+  end subroutine plan_shape_pins
 
   !> With dampers there are damping ratios.
   pure subroutine fit_frequencies(model, columns)

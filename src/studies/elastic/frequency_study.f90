@@ -3,13 +3,15 @@ module frequency_study
   use elastic_linkages, only: elastic_linkage_t
   use errors, only: error_t
   use interruption, only: was_interrupted
+  use joint_study, only: joint_t
   use kinds, only: wp
   use ledger, only: add_ledger, ledger_t
-  use linkages, only: linkage_t
+  use linkages, only: linkage_t, normal_to
   use part_poses, only: place_parts_of
   use pose_types, only: pose_t
   use position_results, only: frequency_of, position_work_t
   use position_solver, only: new_position_work, solve_position
+  use poses, only: arm_to_place
   use positions, only: positions_t, state_t
   use structures, only: structure_t
   use sweeps, only: failure_at, has_result, sweep_t
@@ -18,7 +20,7 @@ module frequency_study
   private
 
   public :: begin_sweep, solve_block, finish_sweep, block_count, block_of, missed_states
-  public :: find_stations, link_of_part, frequency_values, damping_values
+  public :: find_stations, find_displacements, link_of_part, frequency_values, damping_values
   public :: has_result, failure_at, most_attempts
 
   !> Number of neighbouring positions that are solved one after another. The division into blocks,
@@ -145,30 +147,113 @@ contains
                                                  !! link from where its first part begins, then x
                                                  !! and y in global axes [m]
 
-    type(elastic_linkage_t) :: elastic
+    type(linkage_t) :: parts
     type(pose_t) :: placed
-    type(error_t), allocatable :: error
     real(wp) :: before
     integer :: part
 
-    if (.not. allocated(structure%elastic)) then
-      allocate (station(3, points, size(structure%linkage%bodies)))
-      do part = 1, size(station, 3)
-        call place_stations(structure%linkage, state%pose, part, 0.0_wp, station(:, :, part))
-      end do
-      return
-    end if
-    elastic = structure%elastic
-    call place_parts_of(structure%linkage, state%pose, elastic, placed, error)
-    allocate (station(3, points, size(elastic%body)))
+    call place_parts(structure, state, parts, placed)
+    allocate (station(3, points, size(parts%bodies)))
     before = 0.0_wp
     do part = 1, size(station, 3)
       if (link_of_part(structure, part) /= link_of_part(structure, max(1, part - 1))) &
         before = 0.0_wp
-      call place_stations(elastic%linkage, placed, part, before, station(:, :, part))
-      before = before + elastic%linkage%bodies(part)%length
+      call place_stations(parts, placed, part, before, station(:, :, part))
+      before = before + parts%bodies(part)%length
     end do
   end subroutine find_stations
+
+  !> The parts of the links that vibrate, as they are at a position.
+  pure subroutine place_parts(structure, state, parts, placed)
+    type(structure_t), intent(in) :: structure
+    type(state_t), intent(in) :: state
+    type(linkage_t), intent(out) :: parts !! whose bodies are the parts
+    type(pose_t), intent(out) :: placed   !! of these
+
+    type(elastic_linkage_t) :: elastic
+    type(error_t), allocatable :: error
+
+    if (allocated(structure%elastic)) then
+      elastic = structure%elastic
+      call place_parts_of(structure%linkage, state%pose, elastic, placed, error)
+      parts = elastic%linkage
+    else
+      parts = structure%linkage
+      placed = state%pose
+    end if
+  end subroutine place_parts
+
+  !> Where joints and points of rigid links are, and how they move in modes: links have an end of a
+  !! part at each of their joints.
+  pure subroutine find_displacements(structure, state, joints, body, place, shape, x, moved)
+    type(structure_t), intent(in) :: structure   !! whose links vibrate
+    type(state_t), intent(in) :: state           !! with a pose
+    type(joint_t), intent(in) :: joints(:)       !! of `list_joints`
+    integer, intent(in) :: body(:)               !! (points) rigid bodies that carry them
+    real(wp), intent(in) :: place(:, :)          !! (2, points) from the first pin of the body, in
+                                                 !! its axes [m]
+    real(wp), intent(in) :: shape(:, :, :, :)    !! (3, points, parts, modes) of `shapes_t`
+    real(wp), allocatable, intent(out) :: x(:, :)        !! (2, joints and points) global axes [m]
+    real(wp), allocatable, intent(out) :: moved(:, :, :) !! (3, joints and points, modes) of a link
+                                                 !! there; of a block as its pin moves, and its line
+                                                 !! turns: units of `shapes_t`
+
+    type(linkage_t) :: parts
+    type(pose_t) :: placed
+    integer :: i, b, point
+
+    allocate (x(2, size(joints) + size(body)))
+    allocate (moved(3, size(x, 2), size(shape, 4)), source=0.0_wp)
+    call place_parts(structure, state, parts, placed)
+    do i = 1, size(x, 2)
+      if (i > size(joints)) then
+        b = body(i - size(joints))
+        point = 0
+        x(:, i) = state%pose%pin(:, structure%linkage%bodies(b)%first_pin) + &
+          arm_to_place(state%pose, b, place(:, i - size(joints)))
+      else
+        b = joints(i)%body
+        point = joints(i)%pin
+        x(:, i) = state%pose%pin(:, point)
+        if (joints(i)%slider > 0 .and. allocated(structure%elastic)) point = &
+          max(point, structure%elastic%contact(joints(i)%slider))
+      end if
+      if (b > 0) call take_displacement(structure, parts, placed, shape, b, point, x(:, i), &
+        moved(:, i, :))
+      if (i > size(joints)) cycle
+      if (joints(i)%slider > 0) moved(:2, i, :) = moved(:2, findloc(joints%pin, joints(i)%pin, &
+        dim=1), :)
+    end do
+  end subroutine find_displacements
+
+  !> The displacement of a link at an end of one of its parts, or at any place of a rigid link.
+  pure subroutine take_displacement(structure, parts, placed, shape, body, point, x, moved)
+    type(structure_t), intent(in) :: structure
+    type(linkage_t), intent(in) :: parts
+    type(pose_t), intent(in) :: placed
+    real(wp), intent(in) :: shape(:, :, :, :) !! (3, points, parts, modes)
+    integer, intent(in) :: body, point        !! numbers
+    real(wp), intent(in) :: x(2)              !! the place
+    real(wp), intent(out) :: moved(:, :)      !! (3, modes)
+
+    real(wp) :: arm(2)
+    integer :: part, last, i
+
+    last = 1
+    do part = 1, size(parts%bodies)
+      if (link_of_part(structure, part) /= body) cycle
+      last = part
+      moved = shape(:, 1, part, :)
+      if (parts%bodies(part)%first_pin == point) return
+      moved = shape(:, size(shape, 2), part, :)
+      if (parts%bodies(part)%last_pin == point) return
+    end do
+    moved = shape(:, 1, last, :)
+    arm = normal_to(x - placed%pin(:, parts%bodies(last)%first_pin))
+    do i = 1, 2
+      moved(i, :) = moved(i, :) + arm(i)*moved(3, :)
+    end do
+  end subroutine take_displacement
 
   !> The points of a part.
   pure subroutine place_stations(linkage, pose, part, before, station)
