@@ -56,11 +56,11 @@ contains
   end function crank_note
 
   !> The words in the column `branch`.
-  pure function motion_words() result(list)
-    type(name_list_t) :: list
+  pure function motion_words() result(lists)
+    type(name_list_t) :: lists(1)
 
-    list%column = "branch"
-    list%names = word_list("open crossed")
+    lists(1)%column = "branch"
+    lists(1)%names = word_list("open crossed")
   end function motion_words
 
   !> The row of an instant behind its time, in the columns of `columns=` too.

@@ -56,7 +56,7 @@ contains
 
     report%kind = report_kind_t(name="motion", help="the motion under motor and loads", &
       pattern=pattern, default=default, studies="motion", masses=.true., linkages=four_bars)
-    call add_table(report, motion_table_t(), "motion", motion_columns, words=[motion_words()])
+    call add_table(report, motion_table_t(), "motion", motion_columns, words=motion_words())
     call add_table(report, motion_pins_table_t(), "motion_pins", "time:time pin:name x,y:length")
   end subroutine describe_motion
 

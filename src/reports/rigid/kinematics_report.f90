@@ -66,9 +66,9 @@ contains
 
     notes = notes_on_linkage(variant)
     call append_string(notes, angle_note(variant))
-    associate (pins => variant%mechanism%pin_names(variant%mechanism%four_bar%pin))
-      if (pins(2)%text /= "A" .or. pins(3)%text /= "B") call append_string(notes, "A: pin "// &
-        pins(2)%text//"; B: pin "//pins(3)%text)
+    associate (names => variant%mechanism%pin_names, pin => variant%mechanism%four_bar%pin)
+      if (names(pin(2))%text /= "A" .or. names(pin(3))%text /= "B") call append_string(notes, &
+        "A: pin "//names(pin(2))%text//"; B: pin "//names(pin(3))%text)
     end associate
     call append_string(notes, acceleration_note(variant%model))
   end subroutine kinematics_notes

@@ -47,7 +47,7 @@ contains
     integer :: i, branch
 
     associate (found => variant%found%branches, &
-        names => variant%mechanism%names(variant%mechanism%four_bar%body))
+        names => variant%mechanism%names, link => variant%mechanism%four_bar%body)
       call append_string(notes, variant%found%class%grashof)
       call append_string(notes, "mobility 3(n - 1) - 2j of n = "//to_string(found%links)// &
         " links, ground included, and j pins: "//to_string(found%mobility))
@@ -55,8 +55,8 @@ contains
         do i = 1, size(found%of(branch)%ranges)
           associate (range => found%of(branch)%ranges(i))
             call append_string(notes, trim(branch_names(branch))//" branch: "// &
-              range_text("link "//names(1)%text, range%crank, range%crank_turns)//", "// &
-              range_text("link "//names(3)%text, range%follower, range%follower_turns))
+              range_text("link "//names(link(1))%text, range%crank, range%crank_turns)//", "// &
+              range_text("link "//names(link(3))%text, range%follower, range%follower_turns))
           end associate
         end do
       end do

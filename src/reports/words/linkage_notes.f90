@@ -75,10 +75,12 @@ contains
     type(variant_results_t), intent(in) :: variant !! with its mechanism
     character(len=:), allocatable :: note
 
-    associate (names => variant%mechanism%names(variant%mechanism%four_bar%body), &
-        pins => variant%mechanism%pin_names(variant%mechanism%four_bar%pin))
-      note = "3: link "//names(2)%text//", angle from "//pins(2)%text//" to "//pins(3)%text// &
-        "; 4: link "//names(3)%text//", angle from "//pins(4)%text//" to "//pins(3)%text
+    ! By number: names chosen by an array of numbers would leak their texts (gfortran 12).
+    associate (names => variant%mechanism%names, link => variant%mechanism%four_bar%body, &
+        pins => variant%mechanism%pin_names, pin => variant%mechanism%four_bar%pin)
+      note = "3: link "//names(link(2))%text//", angle from "//pins(pin(2))%text//" to "// &
+        pins(pin(3))%text//"; 4: link "//names(link(3))%text//", angle from "// &
+        pins(pin(4))%text//" to "//pins(pin(3))%text
     end associate
   end function angle_note
 
