@@ -83,10 +83,10 @@ SPEED 2
 
 
 def reports_of(program):
-    """Of every report on the list its name, pattern and files."""
+    """Of every report on the list its name, pattern and files; an older name is not asked for beside its successor."""
     text = subprocess.run([program, "--help-cards"], capture_output=True, text=True, check=True).stdout
-    found = re.findall(r"^REPORT ([a-z]\w*)(.*)\n    .*: (\w+\.dat(?:, \w+\.dat)*)", text, re.MULTILINE)
-    return [(name, pattern, files.replace(".dat", "").split(", ")) for name, pattern, files in found]
+    found = re.findall(r"^REPORT ([a-z]\w*)(.*)\n    (.*): (\w+\.dat(?:, \w+\.dat)*)", text, re.MULTILINE)
+    return [(name, pattern, files.replace(".dat", "").split(", ")) for name, pattern, words, files in found if "older name" not in words]
 
 
 def cards_of(name, pattern):
