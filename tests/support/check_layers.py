@@ -14,6 +14,7 @@ import sys
 from glob import glob
 
 MOST_COLUMNS = 100
+MOST_FILES = 20  # of a folder
 INTRINSIC = {"iso_fortran_env", "iso_c_binding", "ieee_arithmetic", "ieee_exceptions", "ieee_features", "omp_lib"}
 FOREIGN = {"mpi_f08": "ranks_mpi"}  # a module of a library, and the one file that may use it
 
@@ -139,6 +140,11 @@ def main(root):
         if not found:
             print(f"ok {path}")
         wrong = wrong or bool(found)
+    for folder in sorted({os.path.dirname(path) for path in sources}):
+        count = sum(os.path.dirname(path) == folder for path in sources)
+        if count > MOST_FILES:
+            print(f"not ok {folder}: {count} files, and a folder has at most {MOST_FILES}")
+            wrong = True
     for layer, uses in layers.items():
         for folder in [layer] + uses:
             if not os.path.isdir(os.path.join("src", folder)):
