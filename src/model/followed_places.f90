@@ -42,16 +42,23 @@ contains
     real(wp), allocatable :: shape(:, :), places(:, :), drawn(:, :)
     logical, allocatable :: is_drawn(:)
     real(wp) :: own(2), turn(2), arm(2)
-    integer :: i, first, second
+    integer :: i, n, first, second
     logical :: is_known
 
     call find_link_shape(model, model%links(number), shape, is_known)
     if (.not. is_known) return
-    names = [model%links(number)%pins, pack(model%points%name, model%points%link == number)]
+    n = size(shape, 2)
+    allocate (names(n + count(model%points%link == number)))
     allocate (places(2, size(names)), drawn(2, size(names)), is_drawn(size(names)))
-    places(:, :size(shape, 2)) = shape
-    places(1, size(shape, 2) + 1:) = pack(model%points%place(1), model%points%link == number)
-    places(2, size(shape, 2) + 1:) = pack(model%points%place(2), model%points%link == number)
+    names(:n) = model%links(number)%pins
+    places(:, :n) = shape
+    ! A constructor would leak the names (gfortran 12).
+    do i = 1, size(model%points)
+      if (model%points(i)%link /= number) cycle
+      n = n + 1
+      names(n) = model%points(i)%name
+      places(:, n) = model%points(i)%place
+    end do
     do i = 1, size(names)
       call find_drawn_place(model, names(i)%text, drawn(:, i), is_drawn(i))
     end do
@@ -69,9 +76,24 @@ contains
     do i = 1, size(names)
       if (is_drawn(i)) cycle
       arm = places(:, i) - places(:, first)
-      model%followed = [model%followed, drawn_pin_t(names(i), drawn(:, first) + [turn(1)*arm(1) - &
-        turn(2)*arm(2), turn(2)*arm(1) + turn(1)*arm(2)])]
+      call append_pin(model%followed, names(i), drawn(:, first) + [turn(1)*arm(1) - &
+        turn(2)*arm(2), turn(2)*arm(1) + turn(1)*arm(2)])
     end do
   end subroutine draw_link
+
+  !> Appends a pin at its place.
+  pure subroutine append_pin(list, pin, position)
+    type(drawn_pin_t), allocatable, intent(inout) :: list(:)
+    type(token_t), intent(in) :: pin
+    real(wp), intent(in) :: position(2) !! [m]
+
+    type(drawn_pin_t), allocatable :: longer(:)
+
+    allocate (longer(size(list) + 1))
+    longer(:size(list)) = list
+    longer(size(longer))%pin = pin
+    longer(size(longer))%position = position
+    call move_alloc(longer, list)
+  end subroutine append_pin
 
 end module followed_places

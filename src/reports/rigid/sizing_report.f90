@@ -14,7 +14,7 @@ module sizing_report
   use table_columns, only: cells, column_width, name_list_t, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
-  use text, only: append_string, string_t, to_string, trimmed_list
+  use text, only: append_string, string_t, to_string, trimmed_list, word_list
   use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -135,7 +135,7 @@ contains
     lists(3)%column = "quantity"
     lists(3)%names = trimmed_list(quantity_words)
     lists(4)%column = "unit"
-    lists(4)%names = [string_t("deg"), string_t("1")]
+    lists(4)%names = word_list("deg 1")
     do i = 1, size(unit_words)
       measure = table_unit(trim(unit_words(i)), variant%model%outputs)
       call append_string(lists(4)%names, measure%name)
