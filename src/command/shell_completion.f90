@@ -1,7 +1,7 @@
 !> Scripts with which shells complete the options and the decks of the program, from the table of
 !! options.
 module shell_completion
-  use option_table, only: option_names, option_t, options
+  use option_table, only: option_names, options
   use program_version, only: program_name
   use text, only: in_single_quotes
   use text_buffer, only: append_text, buffer_text, text_buffer_t

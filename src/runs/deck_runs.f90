@@ -8,8 +8,7 @@ module deck_runs
     publish_outputs, write_found_rows, write_texts, write_variant
   use deck_readings, only: deck_t
   use deck_summary, only: summary_text
-  use diagnostics, only: diagnostic_t, diagnostics_t, has_errors, render_errors, render_warnings, &
-    warnings_of
+  use diagnostics, only: diagnostic_t, diagnostics_t, render_errors, render_warnings, warnings_of
   use echo, only: echo_text
   use errors, only: error_of_interruption, error_of_numerics, error_t, set_error
   use evaluations, only: evaluation_store_t

@@ -14,7 +14,7 @@ module position_assembly
   use ledger, only: ledger_t
   use link_modes, only: rigid
   use linkages, only: drive_of_length
-  use load_cases, only: case_count, find_unit_loads, unit_loads_t
+  use load_cases, only: find_unit_loads, unit_loads_t
   use part_displacements, only: border_size, border_t, find_part_chords, new_border
   use part_forces, only: find_part_forces, part_forces_t
   use part_poses, only: find_part_loads, part_loads_t, place_parts_of

@@ -8,7 +8,7 @@ module campbell_report
   use report_types, only: add_table, report_record_t, speed_table_t, table_plan_t, whole_table_t
   use response_notes, only: damping_note, without_note
   use stability_report, only: is_short, lost_note, stability_words, verdict_word
-  use table_columns, only: cells, column_width, name_list_t, table_layout_t
+  use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: integer_cell, name_cell
   use text, only: append_string, string_t, to_string

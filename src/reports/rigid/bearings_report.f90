@@ -9,7 +9,7 @@ module bearings_report
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, report_record_t, state_table_t
   use table_columns, only: cells, column_width, table_layout_t
-  use table_rows, only: add_failed_row, add_row, rows_t
+  use table_rows, only: add_row, rows_t
   use tables, only: name_cell
   use text, only: append_string, string_t
   use variant_results, only: variant_results_t

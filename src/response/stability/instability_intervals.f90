@@ -7,7 +7,6 @@
 !! orders and numbers of samples, without damping and then with it. What was found is confirmed at
 !! single speeds in every interval and between them.
 module instability_intervals
-  use constants, only: two_pi
   use errors, only: error_t
   use exponent_meetings, only: find_interval, interval_t
   use interruption, only: was_interrupted

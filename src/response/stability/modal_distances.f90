@@ -13,7 +13,7 @@ module modal_distances
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use link_store, only: link_store_t
-  use mode_numbers, only: growing_mode, most_spread, numbers_of
+  use mode_numbers, only: growing_mode, most_spread
   use order_transfer, only: transferred_halves
   use response_levels, only: damping_of, level_slot_t, level_t, need_level, sample_numbers
   use stability_types, only: stability_request_t

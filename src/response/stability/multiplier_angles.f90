@@ -6,7 +6,6 @@
 !! falls with the speed by about `F/ω2 dω2/ω2`. Such multipliers keep their order round the circle;
 !! numbers of modes, which follow their shapes, may pass from one to another.
 module multiplier_angles
-  use constants, only: two_pi
   use errors, only: error_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
   use kinds, only: wp

@@ -7,7 +7,6 @@
 !! could leave it (Krein), than errors reach.
 module stability
   use constants, only: two_pi
-  use elastic_equations, only: elastic_terms_t
   use errors, only: error_of_numerics, error_t, set_error
   use floquet_exponents, only: find_floquet_modes, floquet_mode_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
@@ -19,7 +18,7 @@ module stability
   use order_transfer, only: transferred_halves
   use response_levels, only: damping_of, level_slot_t, level_t, need_level, sample_numbers
   use response_types, only: no_damping
-  use stability_types, only: exponent_t, is_unstable, speed_stability_t, stability_request_t, &
+  use stability_types, only: exponent_t, speed_stability_t, stability_request_t, &
     stability_t, stable, undecided, unstable_combination, unstable_flip, unstable_fold
   use structures, only: structure_t
   use text, only: to_string

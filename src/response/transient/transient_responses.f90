@@ -14,7 +14,7 @@ module transient_responses
   use excited_vibrations, only: excited_vibration_t, find_excited_vibrations, missed_by_steps
   use gauge_values, only: gauge_values_of
   use interruption, only: was_interrupted
-  use kinds, only: long, wp
+  use kinds, only: wp
   use link_store, only: link_store_t
   use linkages, only: linkage_t
   use part_requests, only: join_largest, request_of_parts

@@ -6,7 +6,6 @@
 module passing_places
   use elastic_equations, only: elongation_of, functions_of
   use kinds, only: wp
-  use link_modes, only: link_modes_t
   use link_rows, only: displacement_rows, strain_rows, strain_rows_t
   use turn_grids, only: turn_grid_t
   implicit none (type, external)

@@ -2,7 +2,7 @@
 module run_statistics
   use beam_mesh, only: beam_mesh_t
   use deformation_model, only: deformation_model_t
-  use kinds, only: long, wp
+  use kinds, only: wp
   use run_totals, only: run_totals_t
   use sweeps, only: sweep_t
   use text, only: plural, to_string

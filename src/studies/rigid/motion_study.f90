@@ -2,7 +2,7 @@
 module motion_study
   use drives, only: motor_drive_t
   use elastic_reactions, only: divide_motion, elastic_division_t, new_elastic_division
-  use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
+  use errors, only: error_of_numerics, error_of_reach, error_t, set_error
   use gears, only: gear_t
   use interruption, only: was_interrupted
   use joint_forces, only: joint_forces_t
