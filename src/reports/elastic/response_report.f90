@@ -1,12 +1,12 @@
 !> `response.dat`: displacements of pins and points from where they are with rigid links.
 module response_report
   use constants, only: degree
+  use position_rows, only: add_position_row
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, report_record_t, response_table_t, table_plan_t
   use response_notes, only: append_response_notes
-  use table_columns, only: cells, column_width, name_list_t, table_layout_t
-  use table_rows, only: add_row, rows_t
-  use tables, only: name_cell
+  use table_columns, only: name_list_t, table_layout_t
+  use table_rows, only: rows_t
   use text, only: append_string, string_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -76,10 +76,8 @@ contains
         points => variant%mechanism%response_points)
       do i = 1, size(points)
         associate (u => found%displacement(:, i, position))
-          call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
-            variant%found%positions%crank(position)])//name_cell(points(i)%name, &
-            column_width(layout, 3))//cells(layout, 4, [u(1), u(2), u(3)/degree, &
-            found%displacement_error(i)]))
+          call add_position_row(variant, layout, position, speed, [u(1), u(2), u(3)/degree, &
+            found%displacement_error(i)], rows, points(i)%name)
         end associate
       end do
     end associate

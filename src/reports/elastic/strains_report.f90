@@ -2,12 +2,12 @@
 module strains_report
   use body_lines, only: place_words
   use kinds, only: wp
+  use position_rows, only: add_position_row
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, report_record_t, response_table_t, table_plan_t
   use response_notes, only: append_response_notes
-  use table_columns, only: cells, column_width, name_list_t, table_layout_t, table_unit
-  use table_rows, only: add_row, rows_t
-  use tables, only: name_cell
+  use table_columns, only: name_list_t, table_layout_t, table_unit
+  use table_rows, only: rows_t
   use text, only: append_string, string_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -118,10 +118,8 @@ contains
     associate (found => variant%found%response%at_speed(speed), &
         gauges => variant%mechanism%gauges)
       do i = 1, size(gauges)
-        call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed), &
-          variant%found%positions%crank(position)])//name_cell(gauges(i)%name, &
-          column_width(layout, 3))//cells(layout, 4, [found%strain(:, i, position), &
-          found%strain_error(i)]))
+        call add_position_row(variant, layout, position, speed, [found%strain(:, i, position), &
+          found%strain_error(i)], rows, gauges(i)%name)
       end do
     end associate
   end subroutine add_strains

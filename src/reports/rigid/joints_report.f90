@@ -310,14 +310,11 @@ contains
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
     real(wp), allocatable :: values(:, :)
-    real(wp) :: place(place_columns(variant%model)), rates(2)
+    real(wp) :: rates(2)
     logical :: mixed
-    integer :: i, next
+    integer :: i
 
-    place = table_place(variant%model, speed, position)
-    next = size(place) + 1
     rates = drive_rates(variant%model, speed, position)
-
     associate (model => variant%model, positions => variant%found%positions, &
         linkage => variant%mechanism%linkage)
       values = drives_at_speed(linkage, variant%found%joints, positions%state(position), &
@@ -334,8 +331,8 @@ contains
             values(3, i) = from_si(values(3, i), table_factor("force", model%outputs))
           end if
         end if
-        call add_row(rows, cells(layout, 1, place)//name_cell(model%drives(i)%subject%text, &
-          column_width(layout, next))//cells(layout, next + 1, values(:, i)))
+        call add_position_row(variant, layout, position, speed, values(:, i), rows, &
+          model%drives(i)%subject%text)
       end do
     end associate
   end subroutine add_drives

@@ -1,8 +1,7 @@
 !> `kinematics.dat`: angle, angular velocity and acceleration of every link, a row each; of a
 !! four-bar in one row, with the moving pins and the transmission angle.
 module kinematics_report
-  use drive_motions, only: drive_rates, place_columns, table_place
-  use kinds, only: wp
+  use drive_motions, only: drive_rates
   use kinematics_study, only: four_bar_at_speed, link_at_speed
   use linkage_notes, only: angle_note, notes_on_linkage
   use load_notes, only: acceleration_note
@@ -10,9 +9,8 @@ module kinematics_report
   use position_rows, only: add_position_row
   use report_kinds, only: four_bars, other_linkages, report_kind_t
   use report_types, only: add_table, report_record_t, state_table_t
-  use table_columns, only: cells, column_width, table_layout_t
-  use table_rows, only: add_row, rows_t
-  use tables, only: name_cell
+  use table_columns, only: table_layout_t
+  use table_rows, only: rows_t
   use text, only: append_string, same_word, string_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -149,18 +147,14 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    real(wp) :: place(place_columns(variant%model))
-    integer :: b, next
+    integer :: b
 
-    place = table_place(variant%model, speed, position)
-    next = size(place) + 1
     associate (positions => variant%found%positions, mechanism => variant%mechanism, &
         rates => drive_rates(variant%model, speed, position))
       associate (state => positions%states(positions%state(position)))
         do b = 1, size(mechanism%names)
-          call add_row(rows, cells(layout, 1, place)//name_cell(mechanism%names(b)%text, &
-            column_width(layout, next))//cells(layout, next + 1, link_at_speed( &
-            mechanism%linkage, state, b, rates(1), rates(2))))
+          call add_position_row(variant, layout, position, speed, link_at_speed( &
+            mechanism%linkage, state, b, rates(1), rates(2)), rows, mechanism%names(b)%text)
         end do
       end associate
     end associate

@@ -1,14 +1,13 @@
 !> `pins.dat`: paths, velocities and accelerations of the pins.
 module pins_report
-  use drive_motions, only: drive_rates, place_columns, table_place
-  use kinds, only: wp
+  use drive_motions, only: drive_rates
   use kinematics_study, only: pin_at_speed
   use load_notes, only: acceleration_note
+  use position_rows, only: add_position_row
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, report_record_t, state_table_t, table_plan_t
-  use table_columns, only: cells, column_width, name_list_t, table_layout_t
-  use table_rows, only: add_row, rows_t
-  use tables, only: name_cell
+  use table_columns, only: name_list_t, table_layout_t
+  use table_rows, only: rows_t
   use text, only: append_string, string_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -61,19 +60,15 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    real(wp) :: place(place_columns(variant%model))
-    integer :: p, next
+    integer :: p
 
-    place = table_place(variant%model, speed, position)
-    next = size(place) + 1
     associate (positions => variant%found%positions, mechanism => variant%mechanism, &
         rates => drive_rates(variant%model, speed, position))
       associate (state => positions%states(positions%state(position)))
         do p = 1, size(mechanism%pin_names)
           if (mechanism%linkage%is_ground(p)) cycle
-          call add_row(rows, cells(layout, 1, place)//name_cell(mechanism%pin_names(p)%text, &
-            column_width(layout, next))//cells(layout, next + 1, pin_at_speed(state, p, rates(1), &
-            rates(2))))
+          call add_position_row(variant, layout, position, speed, pin_at_speed(state, p, &
+            rates(1), rates(2)), rows, mechanism%pin_names(p)%text)
         end do
       end associate
     end associate

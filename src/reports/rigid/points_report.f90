@@ -1,15 +1,14 @@
 !> `points.dat`: paths, velocities and accelerations of points fixed to links.
 module points_report
   use body_lines, only: place_words
-  use drive_motions, only: drive_rates, place_columns, table_place
-  use kinds, only: wp
+  use drive_motions, only: drive_rates
   use load_notes, only: acceleration_note
   use points_study, only: point_at_speed
+  use position_rows, only: add_position_row
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, report_record_t, state_table_t, table_plan_t
-  use table_columns, only: cells, column_width, name_list_t, table_layout_t, table_unit
-  use table_rows, only: add_row, rows_t
-  use tables, only: name_cell
+  use table_columns, only: name_list_t, table_layout_t, table_unit
+  use table_rows, only: rows_t
   use text, only: append_string, string_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -78,17 +77,13 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    real(wp) :: place(place_columns(variant%model))
-    integer :: p, next
+    integer :: p
 
-    place = table_place(variant%model, speed, position)
-    next = size(place) + 1
     associate (rates => drive_rates(variant%model, speed, position), &
         state => variant%found%positions%state(position), points => variant%mechanism%points)
       do p = 1, size(points)
-        call add_row(rows, cells(layout, 1, place)// &
-          name_cell(points(p)%name, column_width(layout, next))//cells(layout, next + 1, &
-          point_at_speed(variant%found%points(p, state), rates(1), rates(2))))
+        call add_position_row(variant, layout, position, speed, point_at_speed( &
+          variant%found%points(p, state), rates(1), rates(2)), rows, points(p)%name)
       end do
     end associate
   end subroutine add_points
