@@ -57,13 +57,9 @@ contains
 
     character(len=integer_bytes*size(values)) :: bytes
 
-    if (self%reads) then
-      values = transfer(self%bytes%storage(self%at:self%at + len(bytes) - 1), values)
-      self%at = self%at + len(bytes)
-    else
-      bytes = transfer(values, bytes)
-      call append_text(self%bytes, bytes)
-    end if
+    if (.not. self%reads) bytes = transfer(values, bytes)
+    call self%pass_word(bytes)
+    if (self%reads) values = transfer(bytes, values)
   end subroutine pass_integers
 
   pure subroutine pass_integer(self, value)
@@ -120,13 +116,9 @@ contains
 
     ! Not on the stack: there may be many.
     allocate (character(len=real_bytes*size(values)) :: bytes)
-    if (self%reads) then
-      values = transfer(self%bytes%storage(self%at:self%at + len(bytes) - 1), values)
-      self%at = self%at + len(bytes)
-    else
-      bytes = transfer(values, bytes)
-      call append_text(self%bytes, bytes)
-    end if
+    if (.not. self%reads) bytes = transfer(values, bytes)
+    call self%pass_word(bytes)
+    if (self%reads) values = transfer(bytes, values)
   end subroutine pass_reals
 
   pure subroutine pass_real(self, value)
@@ -228,12 +220,8 @@ contains
     call self%pass_integer(length)
     if (self%reads .and. allocated(text)) deallocate (text)
     if (length < 0) return
-    if (self%reads) then
-      text = self%bytes%storage(self%at:self%at + length - 1)
-      self%at = self%at + length
-    else
-      call append_text(self%bytes, text)
-    end if
+    if (self%reads) allocate (character(len=length) :: text)
+    call self%pass_word(text)
   end subroutine pass_text
 
   !> Writes an integer, for `pass`.
