@@ -58,10 +58,8 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with class and kinematics computed
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
-    type(string_t), allocatable :: of_rows(:)
-
-    call places_notes(variant, of_rows)
-    notes = [notes_on_linkage(variant), of_rows]
+    notes = notes_on_linkage(variant)
+    call append_row_notes(variant, notes)
   end subroutine geometry_notes
 
   !> The order of the rows.
@@ -69,13 +67,20 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its mechanism
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
+    call append_row_notes(variant, notes)
+  end subroutine places_notes
+
+  pure subroutine append_row_notes(variant, notes)
+    type(variant_results_t), intent(in) :: variant
+    type(string_t), allocatable, intent(inout) :: notes(:)
+
     call append_string(notes, &
       "links one after the other, each from pin to pin, then its points; global axes")
     if (size(variant%mechanism%linkage%sliders) > 0) call append_string(notes, &
       "then the sliders on guides and links; ahead: 1 m from a slider in the sense of its line")
     if (size(variant%model%springs) > 0) call append_string(notes, "then springs and dampers "// &
       "with both ends; torsional ones with their pin, and side: a pin of each link there")
-  end subroutine places_notes
+  end subroutine append_row_notes
 
   !> The names in the columns `link`, `part` and `place`.
   pure function geometry_words(variant) result(lists)
