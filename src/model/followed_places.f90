@@ -1,6 +1,7 @@
 !> Pins and POINTs without a PIN card whose places in the drawing follow from two others of their
 !! link.
 module followed_places
+  use card_lists, only: append_card
   use joint_cards, only: drawn_pin_t
   use kinds, only: wp
   use link_checks, only: is_ram
@@ -38,6 +39,7 @@ contains
     type(model_t), intent(inout) :: model
     integer, intent(in) :: number !! of the link
 
+    type(drawn_pin_t) :: pin
     type(token_t), allocatable :: names(:)
     real(wp), allocatable :: shape(:, :), places(:, :), drawn(:, :)
     logical, allocatable :: is_drawn(:)
@@ -76,24 +78,11 @@ contains
     do i = 1, size(names)
       if (is_drawn(i)) cycle
       arm = places(:, i) - places(:, first)
-      call append_pin(model%followed, names(i), drawn(:, first) + [turn(1)*arm(1) - &
-        turn(2)*arm(2), turn(2)*arm(1) + turn(1)*arm(2)])
+      pin%pin = names(i)
+      pin%position = drawn(:, first) + [turn(1)*arm(1) - turn(2)*arm(2), turn(2)*arm(1) + &
+        turn(1)*arm(2)]
+      call append_card(model%followed, pin)
     end do
   end subroutine draw_link
-
-  !> Appends a pin at its place.
-  pure subroutine append_pin(list, pin, position)
-    type(drawn_pin_t), allocatable, intent(inout) :: list(:)
-    type(token_t), intent(in) :: pin
-    real(wp), intent(in) :: position(2) !! [m]
-
-    type(drawn_pin_t), allocatable :: longer(:)
-
-    allocate (longer(size(list) + 1))
-    longer(:size(list)) = list
-    longer(size(longer))%pin = pin
-    longer(size(longer))%position = position
-    call move_alloc(longer, list)
-  end subroutine append_pin
 
 end module followed_places
