@@ -153,11 +153,13 @@ contains
           " variants could be computed; "//failure_text(session%findings%failed(1)), &
           deck%source%path)
       end if
-      ! It would fail again: nothing to resume from.
-      if (allocated(error) .or. len(deck%errors) > 0) call remove_journal(session%journal)
+      if (allocated(error) .or. len(deck%errors) > 0) then
+        ! It would fail again: nothing to resume from.
+        call remove_journal(session%journal)
+      else
+        call publish(deck, options, session, error)
+      end if
     end if
-    if (.not. allocated(error) .and. len(deck%errors) == 0) call publish(deck, options, session, &
-      error)
     if (allocated(error) .or. len(deck%errors) > 0) then
       call discard_outputs(session%outputs)
       return

@@ -206,12 +206,14 @@ contains
 
     character(len=:), allocatable :: name
 
-    if (number == 1) checks%of_first = check%diagnostics
-    ! Of a million variants, a misspelt name would be told minutes later.
-    if (number == 1 .and. is_written_wrongly(check%diagnostics)) then
-      call append_warnings(checks%refusal, check%diagnostics)
-      call take_errors(check%diagnostics, "", checks%refusal)
-      return
+    if (number == 1) then
+      checks%of_first = check%diagnostics
+      ! Of a million variants, a misspelt name would be told minutes later.
+      if (is_written_wrongly(check%diagnostics)) then
+        call append_warnings(checks%refusal, check%diagnostics)
+        call take_errors(check%diagnostics, "", checks%refusal)
+        return
+      end if
     end if
     ! Nearly all variants have nothing to say, and do not need their names.
     name = ""
