@@ -15,7 +15,7 @@ module linkage_instants
   implicit none (type, external)
   private
 
-  public :: linkage_instant_t, first_drive_t, make_room, find_inertia, add_loads, add_accelerations
+  public :: linkage_instant_t, make_room, find_inertia, add_loads, add_accelerations
 
   !> The first drive and its motor.
   type :: first_drive_t
@@ -179,7 +179,6 @@ contains
     end associate
     instant%body_load = body_load
     instant%pin_load = pin_load
-
   end subroutine add_loads
 
   !> Adds forces and moments of all bodies to others.
