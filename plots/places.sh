@@ -4,7 +4,7 @@
 #       as bodies at COUNT + 1 positions, evenly: see shapes.awk
 #   places.sh motion FOLDER STRIDE COUNT SHARE
 #       as bodies at instants of its motion, the first row of motion.dat and every STRIDE rows, COUNT in all, with the time in place of the
-#       crank
+#       crank: places are those of motion_places.dat, or, without that table, of the motion computed once more
 #   places.sh modes FOLDER TABLE SPEED MODES CRANKS SIZE BAR PARTS
 #       as it swings in modes of shapes.dat and shape_pins.dat, what stands still, blocks, springs and joints: see mode_places.awk. MODES and CRANKS are lists
 #       with commas; SIZE is the largest displacement drawn, BAR half the width of a bar, PARTS of the swing are drawn
@@ -42,12 +42,16 @@ case $kind in
         }')"
         bodies -v share="$4" < "$geometry" ;;
     motion)
-        card=$(grep -i '^REPORT *motion' echo.deck)
-        place "$card" "REPORT geometry $(printf '%s\n' "$card" | grep -io 'crank=[^ ]*' | head -n 1)"
+        places=motion_places.dat
+        if [ ! -f $places ]; then
+            card=$(grep -i '^REPORT *motion' echo.deck)
+            place "$card" "REPORT geometry $(printf '%s\n' "$card" | grep -io 'crank=[^ ]*' | head -n 1)"
+            places=$folder/drawn/$places
+        fi
         awk -v stride="$1" -v count="$2" '
             /^#/ || NF == 0 { next }
             $1 "" != time { time = $1 ""; instant++ }
-            (instant - 1) % stride == 0 && instant <= stride * (count - 1) + 1' "$folder/drawn/motion_places.dat" | bodies -v share="$3" ;;
+            (instant - 1) % stride == 0 && instant <= stride * (count - 1) + 1' "$places" | bodies -v share="$3" ;;
     modes)
         place "$(ask 'distinct =crank' "$1" | sort -g | awk -v cranks="$4" '
             BEGIN { n = split(cranks, crank, ",") }
