@@ -2,17 +2,17 @@
 !!
 !! What cannot be written shows when it is written or when the file is closed: a full disk, a limit.
 module output_files
-  use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_null_char, c_null_ptr, c_ptr, &
-    c_size_t
+  use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_null_ptr, &
+    c_ptr, c_size_t
   use errors, only: error_of_files, error_t, set_error
-  use file_system, only: system_reason
-  use system_calls, only: c_fclose, c_fflush, c_fopen, c_fwrite
+  use file_system, only: remove_file, system_reason
+  use system_calls, only: c_fclose, c_ferror, c_fflush, c_fopen, c_fread, c_fwrite
   use text_buffer, only: append_text, text_buffer_t
   implicit none (type, external)
   private
 
-  public :: output_file_t, open_output, append_output, pass_on_output, is_failing, finish_output, &
-    close_output
+  public :: output_file_t, open_output, append_output, append_file, pass_on_output, is_failing, &
+    finish_output, close_output
 
   type :: output_file_t
     type(c_ptr), private :: stream = c_null_ptr
@@ -48,6 +48,30 @@ contains
     call append_text(file%buffer, text)
     if (file%buffer%length > buffer_size) call write_buffer(file)
   end subroutine append_output
+
+  !> Appends a file to another one, and removes it. Failures are reported by `finish_output`.
+  subroutine append_file(file, path)
+    type(output_file_t), intent(inout) :: file !! open
+    character(len=*), intent(in) :: path       !! of the other one, closed
+
+    character(kind=c_char, len=buffer_size) :: piece
+    type(c_ptr) :: stream
+    integer :: length
+
+    stream = c_fopen(path//c_null_char, "r"//c_null_char)
+    if (.not. c_associated(stream)) then
+      if (.not. allocated(file%reason)) file%reason = system_reason()
+      return
+    end if
+    do
+      length = int(c_fread(piece, 1_c_size_t, len(piece, c_size_t), stream))
+      call append_output(file, piece(:length))
+      if (length < len(piece)) exit
+    end do
+    if (c_ferror(stream) /= 0_c_int .and. .not. allocated(file%reason)) &
+      file%reason = system_reason()
+    if (c_fclose(stream) == 0_c_int) call remove_file(path)
+  end subroutine append_file
 
   subroutine write_buffer(file)
     type(output_file_t), intent(inout) :: file

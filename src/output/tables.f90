@@ -8,13 +8,15 @@ module tables
   use kinds, only: long, wp
   use number_text, only: number_width, scientific
   use numbers, only: write_shortest
-  use output_files, only: append_output, close_output, finish_output, open_output, output_file_t
+  use output_files, only: append_file, append_output, close_output, finish_output, open_output, &
+    output_file_t
   use table_rows, only: item_failure, item_gap, item_row, next_item, row_item_t, rows_t
   use text, only: is_among, string_t, to_string
   implicit none (type, external)
   private
 
-  public :: table_file_t, open_table, begin_variant, finish_table, close_table
+  public :: table_file_t, open_table, begin_variant, finish_table, close_table, open_later_rows, &
+    append_later_rows
   public :: column_t, real_column, integer_column, name_column, append_column
   public :: write_header, write_notes, write_rows
   public :: real_cells, decimal_cell, integer_cell, name_cell, has_unit
@@ -93,6 +95,41 @@ contains
     if (table%has_csv .and. .not. allocated(error)) call finish_output(table%csv, &
       joined_path(folder, table%name//".csv"), error)
   end subroutine finish_table
+
+  !> Opens files of their own for rows that follow others, which are yet to come.
+  subroutine open_later_rows(table, folder, number, later, error)
+    type(table_file_t), intent(in) :: table  !! with its header and variant
+    character(len=*), intent(in) :: folder   !! existing
+    integer, intent(in) :: number            !! different for every such file of the table
+    type(table_file_t), intent(out) :: later !! takes rows as the table does
+    type(error_t), allocatable, intent(out) :: error !! a file cannot be opened
+
+    call open_table(folder, table%name//"."//to_string(number), table%has_csv, later, error, &
+      .not. table%has_plain)
+    later%has_blocks = table%has_blocks
+    later%columns = table%columns
+    call begin_variant(later, table%parameters, table%parameter_values)
+  end subroutine open_later_rows
+
+  !> Appends such rows, and removes their files. Errors: not everything was taken.
+  subroutine append_later_rows(table, folder, later, error)
+    type(table_file_t), intent(inout) :: table       !! with the rows before
+    character(len=*), intent(in) :: folder           !! with the files of the later rows
+    type(table_file_t), intent(inout) :: later       !! open before, removed after
+    type(error_t), allocatable, intent(out) :: error !! allocated if a file is incomplete
+
+    logical :: gap_due
+
+    gap_due = later%gap_due
+    later%gap_due = .false.
+    call finish_table(later, folder, error)
+    if (allocated(error)) return
+    if (table%has_plain) call append_file(table%plain, joined_path(folder, later%name//".dat"))
+    if (table%has_csv) call append_file(table%csv, joined_path(folder, later%name//".csv"))
+    table%gap_due = gap_due
+    table%rows = table%rows + later%rows
+    table%failed_rows = table%failed_rows + later%failed_rows
+  end subroutine append_later_rows
 
   !> Closes the files as they are.
   subroutine close_table(table)

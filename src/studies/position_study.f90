@@ -8,7 +8,7 @@ module position_study
   implicit none (type, external)
   private
 
-  public :: find_all_positions
+  public :: find_all_positions, place_positions
 
 contains
 
@@ -23,14 +23,23 @@ contains
     logical, intent(in), optional :: instants   !! one state for every position, see
                                                 !! `list_positions`
 
+    call list_positions(crank, positions, load_period(linkage, period_of(linkage)), instants)
+    call place_positions(linkage, threads, positions)
+  end subroutine find_all_positions
+
+  !> Poses and kinematic coefficients of states that have their crank angles. Errors: likewise.
+  subroutine place_positions(linkage, threads, positions)
+    type(linkage_t), intent(in) :: linkage        !! of mobility one
+    integer, intent(in) :: threads                !! number of OpenMP threads
+    type(positions_t), intent(inout) :: positions !! by `list_positions` or `list_block`
+
     integer :: i
 
-    call list_positions(crank, positions, load_period(linkage, period_of(linkage)), instants)
     !$omp parallel do num_threads(threads) schedule(dynamic, 32) default(shared) private(i)
     do i = 1, size(positions%states)
       call find_state(linkage, positions%states(i))
     end do
     !$omp end parallel do
-  end subroutine find_all_positions
+  end subroutine place_positions
 
 end module position_study

@@ -12,7 +12,7 @@ module positions
   private
 
   public :: positions_t, state_t, refuse_change_points, find_positions, list_positions, &
-    find_state, by_crank_angle
+    list_block, find_first_alike, find_state, by_crank_angle
 
   !> The linkage at one crank angle.
   type :: state_t
@@ -22,9 +22,11 @@ module positions
     type(error_t), allocatable :: error !! why the links cannot be moved here
   end type state_t
 
-  !> All listed crank angles, and one state for each different angle.
+  !> All listed crank angles or a block of the list, and one state for each different angle.
   type :: positions_t
     real(wp) :: period = 360.0_wp           !! after which positions repeat [deg]; 0: none
+    integer :: before = 0                   !! positions of the list before this block
+    integer :: repeated = 0                 !! states that an earlier block has, too
     real(wp), allocatable :: crank(:)       !! (positions) as the deck lists them [deg]
     integer, allocatable :: state(:)        !! (positions) number in `states`; 0° and 360° have the
                                             !! same
@@ -58,40 +60,62 @@ contains
     logical, intent(in), optional :: instants   !! each is a state of its own, for the speed differs
                                                 !! from one to the other; absent: no
 
-    real(wp) :: reduced(size(crank))
-    integer :: order(size(crank)), i, states
-    integer :: first(size(crank))
     logical :: is_apart
 
-    is_apart = .false.
-    positions%crank = crank
     if (present(period)) positions%period = period
-    reduced = reduced_crank(positions%period, crank)
-    order = ascending_order(reduced)
-    allocate (positions%state(size(crank)))
-    ! Equal angles are adjacent in the sorted order, the first listed before the others.
-    first = [(i, i=1, size(crank))]
+    is_apart = .false.
     if (present(instants)) is_apart = instants
+    call list_block(crank, find_first_alike(crank, positions%period, is_apart), 0, size(crank), &
+      positions)
+  end subroutine list_positions
+
+  !> For every position of a list the first one with the same crank angle, which may be itself.
+  pure function find_first_alike(crank, period, instants) result(first)
+    real(wp), intent(in) :: crank(:) !! (positions) crank angles [deg]
+    real(wp), intent(in) :: period   !! as of `list_positions`
+    logical, intent(in) :: instants  !! likewise
+    integer :: first(size(crank))    !! (positions) numbers
+
+    real(wp) :: reduced(size(crank))
+    integer :: order(size(crank)), i
+
+    first = [(i, i=1, size(crank))]
+    if (instants) return
+    reduced = reduced_crank(period, crank)
+    order = ascending_order(reduced)
+    ! Equal angles are adjacent in the sorted order, the first listed before the others.
     do i = 2, size(crank)
-      if (is_apart) exit
       if (reduced(order(i)) <= reduced(order(i - 1))) first(order(i)) = first(order(i - 1))
     end do
+  end function find_first_alike
+
+  !> The different angles of a block of a list, without poses.
+  pure subroutine list_block(crank, first_alike, before, last, positions)
+    real(wp), intent(in) :: crank(:)      !! (positions) all of the list [deg]
+    integer, intent(in) :: first_alike(:) !! (positions) by `find_first_alike`
+    integer, intent(in) :: before, last   !! positions before the block, number of its last one
+    type(positions_t), intent(inout) :: positions !! new; on return with states yet to be found
+
+    integer :: number(last - before), i, states
+
+    positions%before = before
+    positions%crank = crank(before + 1:last)
+    positions%repeated = count(first_alike(before + 1:last) <= before)
     states = 0
-    do i = 1, size(crank)
-      if (first(i) == i) states = states + 1
-    end do
-    allocate (positions%states(states))
-    states = 0
-    do i = 1, size(crank)
-      if (first(i) < i) then
-        positions%state(i) = positions%state(first(i))
-        cycle
+    do i = before + 1, last
+      if (first_alike(i) > before .and. first_alike(i) < i) then
+        number(i - before) = number(first_alike(i) - before)
+      else
+        states = states + 1
+        number(i - before) = states
       end if
-      states = states + 1
-      positions%state(i) = states
-      positions%states(states)%crank = crank(i)
     end do
-  end subroutine list_positions
+    positions%state = number
+    allocate (positions%states(states))
+    do i = before + 1, last
+      positions%states(number(i - before))%crank = crank(first_alike(i))
+    end do
+  end subroutine list_block
 
   !> Pose and kinematic coefficients at the crank angle of a state.
   !!
