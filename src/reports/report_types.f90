@@ -27,7 +27,8 @@ module report_types
   public :: report_record_t, add_table
   public :: table_t, whole_table_t, speed_table_t, position_table_t, state_table_t, &
     rest_table_t, response_table_t, any_table_t
-  public :: table_plan_t, plan_table, add_item_rows, fit_columns, plan_links, lay_out_columns
+  public :: table_plan_t, plan_table, add_item_rows, fit_columns, plan_links, lay_out_columns, &
+    has_to_look_back, need_not_look_back
 
   !> What the columns and the items of a table depend on, beside its record.
   type :: table_plan_t
@@ -48,6 +49,7 @@ module report_types
     procedure, nopass :: fit => fit_columns             !! columns as a deck has them
     procedure, nopass :: plan => plan_links             !! names and columns of a variant
     procedure, nopass :: lay_out => lay_out_columns     !! columns that no record can have, too
+    procedure, nopass :: looks_back => has_to_look_back !! rows or notes need several positions
     procedure(notes_of), deferred, nopass :: find_notes !! the remarks at its head
   end type table_t
 
@@ -79,6 +81,8 @@ module report_types
   !> One of the rigid linkage: a position without a pose, or where friction locks the linkage, is a
   !! failed row.
   type, abstract, extends(position_table_t) :: state_table_t
+  contains
+    procedure, nopass :: looks_back => need_not_look_back
   end type state_table_t
 
   !> One of the rigid linkage at rest: an item for every position.
@@ -284,6 +288,16 @@ contains
     count = size(variant%model%speed%value)
   end function speeds_of_deck
 
+  !> What most tables answer.
+  pure logical function has_to_look_back()
+    has_to_look_back = .true.
+  end function has_to_look_back
+
+  !> What tables answer whose rows tell of their positions only.
+  pure logical function need_not_look_back()
+    need_not_look_back = .false.
+  end function need_not_look_back
+
   !> Appends the rows of an item.
   subroutine add_item_rows(plan, variant, number, rows)
     type(table_plan_t), intent(in) :: plan         !! by `plan_table`
@@ -318,7 +332,7 @@ contains
         count = size(variant%found%positions%crank)
         position = 1 + mod(number - 1, count)
         speed = 1 + (number - 1)/count
-        if (position == 1 .and. speed > 1) call add_gap(rows, 2)
+        if (position + variant%found%positions%before == 1 .and. speed > 1) call add_gap(rows, 2)
       end if
       call add_place(table, plan%layout, variant, position, speed, rows)
     end select

@@ -13,8 +13,8 @@ module deck_outputs
   use report_types, only: any_table_t, plan_table, table_plan_t
   use table_columns, only: header_columns
   use table_rows, only: add_failed_row, rows_t
-  use tables, only: begin_variant, close_table, column_t, finish_table, open_table, table_file_t, &
-    write_header, write_notes, write_rows
+  use tables, only: append_later_rows, begin_variant, close_table, column_t, finish_table, &
+    open_later_rows, open_table, table_file_t, write_header, write_notes, write_rows
   use task_journal, only: begun, journal_name
   use text, only: append_string, string_t, word_list
   use variant_results, only: variant_results_t
@@ -22,8 +22,8 @@ module deck_outputs
   implicit none (type, external)
   private
 
-  public :: outputs_t, open_outputs, open_part, write_variant, write_found_rows, &
-    write_texts, publish_outputs, close_outputs, discard_outputs, forget_waiting
+  public :: outputs_t, open_outputs, open_part, begin_results, write_results, end_results, &
+    write_found_rows, write_texts, publish_outputs, close_outputs, discard_outputs, forget_waiting
 
   !> The files of one output folder.
   type :: outputs_t
@@ -36,6 +36,9 @@ module deck_outputs
     logical :: have_heads = .false.                       !! the tables; the first variant that is
                                                           !! computed brings them
     integer :: computed = 0                               !! variants with a result
+    type(table_file_t), allocatable, private :: later(:, :) !! (speeds after the first, tables) rows
+                                                          !! of a variant that comes in blocks
+    integer(long), private :: before(2) = 0_long          !! rows before the variant that is written
     type(byte_stream_t), private :: waiting               !! values and reasons of variants that
                                                           !! failed before the tables had heads
     type(output_file_t), private :: echo, log, summary
@@ -113,33 +116,88 @@ contains
       error)
   end subroutine open_part
 
-  !> Writes the rows of a variant to all tables, a number of items at a time.
-  subroutine write_variant(outputs, variant, threads)
+  !> Begins the rows of a variant in all tables.
+  subroutine begin_results(outputs, variant)
     type(outputs_t), intent(inout) :: outputs      !! opened
-    type(variant_results_t), intent(in) :: variant !! computed
-    integer, intent(in) :: threads                 !! number to use
+    type(variant_results_t), intent(in) :: variant !! computed, or its first block
 
     type(table_plan_t) :: plan
     type(string_t), allocatable :: notes(:)
     type(column_t), allocatable :: columns(:)
-    integer(long) :: before(2)
-    integer :: i, first
+    integer :: i
 
-    before = rows_written(outputs)
+    outputs%before = rows_written(outputs)
     do i = 1, size(outputs%kinds)
       call plan_table(outputs%kinds(i)%table, variant, plan)
       call plan%table%find_notes(variant, notes)
-      associate (table => outputs%tables(i))
-        call header_columns(plan%layout, columns)
-        call begin_rows(outputs, table, variant%model%title, notes, columns, variant%model%varied)
-        do first = 1, plan%items, items_at_a_time
-          call write_items(table, plan, variant, first, &
-            min(first + items_at_a_time - 1, plan%items), threads)
-        end do
-      end associate
+      call header_columns(plan%layout, columns)
+      call begin_rows(outputs, outputs%tables(i), variant%model%title, notes, columns, &
+        variant%model%varied)
     end do
-    call end_rows(outputs, before)
-  end subroutine write_variant
+  end subroutine begin_results
+
+  !> Writes the rows of a variant, or of a block of its positions, to all tables. Speeds after the
+  !! first wait in files of their own for the blocks that follow. Errors: there are no such files.
+  subroutine write_results(outputs, variant, threads, is_block, error)
+    type(outputs_t), intent(inout) :: outputs      !! with the rows before
+    type(variant_results_t), intent(in) :: variant !! computed
+    integer, intent(in) :: threads                 !! number to use
+    logical, intent(in) :: is_block                !! all tables are of positions
+    type(error_t), allocatable, intent(out) :: error
+
+    type(table_plan_t) :: plan
+    integer :: i, k, speeds, items
+
+    if (is_block .and. .not. allocated(outputs%later)) allocate (outputs%later(max(0, &
+      size(variant%model%speed%value) - 1), size(outputs%tables)))
+    do i = 1, size(outputs%kinds)
+      call plan_table(outputs%kinds(i)%table, variant, plan)
+      items = plan%items
+      if (is_block) items = size(variant%found%positions%crank)
+      speeds = plan%items/max(1, items)
+      if (variant%found%positions%before == 0) call open_later(i, speeds)
+      if (allocated(error)) return
+      call write_items(outputs%tables(i), plan, variant, 0, items, threads)
+      do k = 2, speeds
+        call write_items(outputs%later(k - 1, i), plan, variant, (k - 1)*items, items, threads)
+      end do
+    end do
+
+  contains
+
+    subroutine open_later(table, speeds)
+      integer, intent(in) :: table, speeds !! number, count
+
+      integer :: k
+
+      do k = 2, speeds
+        if (allocated(error)) return
+        call open_later_rows(outputs%tables(table), outputs%folder%own, k, outputs%later(k - 1, &
+          table), error)
+      end do
+    end subroutine open_later
+
+  end subroutine write_results
+
+  !> Ends the rows of a variant. Errors: rows that waited could not be written.
+  subroutine end_results(outputs, error)
+    type(outputs_t), intent(inout) :: outputs !! with all rows of the variant
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: i, k
+
+    if (allocated(outputs%later)) then
+      do i = 1, size(outputs%tables)
+        do k = 1, size(outputs%later, 1)
+          if (.not. allocated(outputs%later(k, i)%name)) cycle
+          call append_later_rows(outputs%tables(i), outputs%folder%own, outputs%later(k, i), error)
+          if (allocated(error)) return
+        end do
+      end do
+      deallocate (outputs%later)
+    end if
+    call end_rows(outputs, outputs%before)
+  end subroutine end_results
 
   !> Begins the rows of a variant in a table. Those of the first one that is computed follow the
   !! head and the variants that waited for it.
@@ -209,16 +267,23 @@ contains
     outputs%waiting = none
   end subroutine forget_waiting
 
-  subroutine write_items(table, plan, variant, first, last, threads)
+  !> Writes the rows of some items, a number of them at a time.
+  subroutine write_items(table, plan, variant, before, items, threads)
     type(table_file_t), intent(inout) :: table
     type(table_plan_t), intent(in) :: plan
     type(variant_results_t), intent(in) :: variant
-    integer, intent(in) :: first, last, threads
+    integer, intent(in) :: before, items, threads
 
-    type(rows_t) :: rows
+    type(rows_t), allocatable :: rows
+    integer :: first
 
-    call find_rows(plan, variant, first, last, threads, rows)
-    call write_rows(table, rows)
+    do first = before + 1, before + items, items_at_a_time
+      allocate (rows)
+      call find_rows(plan, variant, first, min(first + items_at_a_time - 1, before + items), &
+        threads, rows)
+      call write_rows(table, rows)
+      deallocate (rows)
+    end do
   end subroutine write_items
 
   !> Writes the rows, already found, of a variant. The first one that is computed brings the columns
@@ -292,11 +357,15 @@ contains
   subroutine discard_outputs(outputs)
     type(outputs_t), intent(inout) :: outputs !! opened, as far as was possible, or new
 
-    integer :: i
+    integer :: i, k
 
     if (allocated(outputs%tables)) then
       do i = 1, size(outputs%tables)
         call close_table(outputs%tables(i))
+        if (.not. allocated(outputs%later)) cycle
+        do k = 1, size(outputs%later, 1)
+          call close_table(outputs%later(k, i))
+        end do
       end do
     end if
     call close_output(outputs%echo)

@@ -4,8 +4,9 @@ module deck_runs
   use byte_streams, only: byte_stream_t
   use cards, only: card_t
   use deck_bytes, only: pass_deck
-  use deck_outputs, only: close_outputs, discard_outputs, open_outputs, open_part, outputs_t, &
-    publish_outputs, write_found_rows, write_texts, write_variant
+  use deck_outputs, only: begin_results, close_outputs, discard_outputs, end_results, &
+    open_outputs, open_part, outputs_t, publish_outputs, write_found_rows, write_results, &
+    write_texts
   use deck_readings, only: deck_t
   use deck_summary, only: summary_text
   use diagnostics, only: diagnostic_t, diagnostics_t, render_errors, render_warnings, warnings_of
@@ -15,8 +16,10 @@ module deck_runs
   use file_system, only: file_name, joined_path
   use findings_texts, only: failure_text, findings_log, findings_messages
   use interruption, only: was_interrupted, was_out_of_time
+  use kept_positions, only: many_rows, positions_kept
   use kinds, only: wp
   use models, only: model_t, report_number, solver_band
+  use position_blocks, only: divide_positions
   use part_files, only: find_parts, read_parts, refuse_part
   use program_version, only: version_number
   use progress, only: end_progress, progress_t, show_progress, start_progress
@@ -38,7 +41,8 @@ module deck_runs
     first_error, is_refused, join_check, refuses_deck
   use variant_readings, only: read_variant
   use variant_rows, only: fail_variant, variant_rows_t
-  use variant_runs, only: begin_variant_run, compute_variant, help_with_variant, variant_run_t
+  use variant_runs, only: begin_computing, begin_variant_run, block_count, compute_block, &
+    help_with_variant, variant_run_t
   use variant_tasks, only: group_of_variants, run_variant_tasks, variant_job_t
   use variants, only: parameter_names, variant_count, variant_text, variant_values
   use warnings, only: grade_meaningless
@@ -85,9 +89,8 @@ module deck_runs
     integer :: method = 0                !! by which its frequencies were found
   end type session_t
 
-  !> A variant with more positions than this keeps all threads busy. One with more rows is computed
-  !! by all ranks together, and its rows do not wait in memory.
-  integer, parameter :: many_positions = 1024, many_rows = 100000
+  !> A variant with more positions than this keeps all threads busy.
+  integer, parameter :: many_positions = 1024
 
   !> First word of what other ranks are told of the blocks of a sweep.
   character(len=*), parameter :: blocks_announced = "blocks"
@@ -96,7 +99,7 @@ module deck_runs
 
   !> Form of the bytes in a journal: another number wherever they mean something else, since the
   !! version of the program may stay the same.
-  character(len=*), parameter :: journal_form = "journal 12"
+  character(len=*), parameter :: journal_form = "journal 13"
 
 contains
 
@@ -349,9 +352,9 @@ contains
     type(findings_t) :: findings
     type(run_totals_t) :: totals
     type(stopwatch_t) :: watch
-    type(byte_stream_t) :: announced
-    type(string_t) :: no_settings(0)
+    type(error_t), allocatable :: failure
     real(wp) :: computing, writing
+    integer :: block
 
     call start_stopwatch(watch)
     if (variant_count(deck%cards) == 1) then
@@ -368,34 +371,62 @@ contains
       end if
       call begin_variant_run(run, model)
     end if
-    if (rank_count() > 1) then
-      call announced%add_text(blocks_announced)
-      call pass_deck(announced, deck, no_settings)
-      call announced%add(number)
-      run%announcement = announced%bytes%storage(:announced%bytes%length)
-    end if
-    call compute_variant(run, threads, session%journal, number, store%links, error)
+    call divide_positions(run%results%model, positions_kept(run%results%model), &
+      run%results%mechanism%linkage, threads, run%blocks)
+    call begin_computing(run, threads, session%journal, number, store%links)
+    do block = 1, block_count(run)
+      call announce_block(deck, number, block, run)
+      call compute_block(run, block, error)
+      call lap(watch, computing)
+      if (was_interrupted()) return
+      if (allocated(error)) then
+        if (variant_count(deck%cards) == 1) return
+        if (block > 1) call end_results(session%outputs, failure)
+        call write_failed_variant(deck, number, session, error)
+        call move_alloc(failure, error)
+        return
+      end if
+      if (block == 1) call begin_results(session%outputs, run%results)
+      call write_results(session%outputs, run%results, threads, block_count(run) > 1, error)
+      if (allocated(error)) return
+      call lap(watch, writing)
+      totals = totals_of(run%results)
+      totals%computing = computing
+      totals%writing = writing
+      ! Every block was placed before, when all were surveyed.
+      if (block_count(run) > 1) totals%kinematic_solutions = totals%kinematic_solutions + &
+        totals%rows
+      call add_totals(session%totals, totals)
+      call find_failures(run%results, findings)
+    end do
     if (variant_count(deck%cards) == 1) session%progress = run%progress
-    call lap(watch, computing)
-    if (was_interrupted()) return
-    if (allocated(error)) then
-      if (variant_count(deck%cards) > 1) call write_failed_variant(deck, number, session, error)
-      return
-    end if
-    call write_variant(session%outputs, run%results, threads)
-    call lap(watch, writing)
-    totals = totals_of(run%results)
-    totals%computing = computing
-    totals%writing = writing
-    call add_totals(session%totals, totals)
-    call find_failures(run%results, findings)
+    call end_results(session%outputs, error)
+    if (allocated(error)) return
     call find_warnings(run%results, findings)
     call add_findings(session%findings, findings)
     if (session%logged > 0) return
+    if (allocated(run%blocks)) run%results%model = run%blocks%model
     session%log = log_of_variant(run%results)
     session%logged = number
     if (totals%has_frequencies) session%method = run%results%found%sweep%request%method
   end subroutine run_whole_variant
+
+  !> Makes the words by which other ranks help with a block of positions.
+  subroutine announce_block(deck, number, block, run)
+    type(deck_t), intent(inout) :: deck !! the same on return
+    integer, intent(in) :: number, block !! of the variant, of the block
+    type(variant_run_t), intent(inout) :: run
+
+    type(byte_stream_t) :: announced
+    type(string_t) :: no_settings(0)
+
+    if (rank_count() == 1) return
+    call announced%add_text(blocks_announced)
+    call pass_deck(announced, deck, no_settings)
+    call announced%add(number)
+    call announced%add(merge(block, 0, block_count(run) > 1))
+    run%announcement = announced%bytes%storage(:announced%bytes%length)
+  end subroutine announce_block
 
   !> Writes the failed rows of a variant that could not be computed.
   subroutine write_failed_variant(deck, number, session, error)
@@ -469,13 +500,16 @@ contains
     type(model_t) :: model
     type(card_t), allocatable :: cards(:)
     type(diagnostics_t) :: none
-    integer :: number
+    integer :: number, block
 
     call pass_deck(stream, deck, settings)
     call stream%pass(number)
+    call stream%pass(block)
     call read_variant(deck%cards, number, cards, none, model)
     call begin_variant_run(run, model)
-    call help_with_variant(run, threads)
+    if (block > 0) call divide_positions(model, positions_kept(model), &
+      run%results%mechanism%linkage, threads, run%blocks)
+    call help_with_variant(run, threads, max(1, block))
   end subroutine help_with_blocks
 
   !> Writes the texts beside the tables, and puts all files in place. Errors: the run was

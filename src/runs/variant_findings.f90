@@ -3,10 +3,10 @@ module variant_findings
   use errors, only: error_of_numerics, error_of_reach, error_t, set_error
   use friction_words, only: lock_words
   use locked_rows, only: is_locked_at, lock_at
-  use models, only: has_law
+  use models, only: has_law, needs_study
   use run_findings, only: findings_t
   use run_totals, only: run_totals_t
-  use study_list, only: is_made, list_studies
+  use study_list, only: list_studies
   use study_findings, only: note_at_position, note_failure
   use study_types, only: study_t
   use variant_results, only: variant_results_t
@@ -28,6 +28,7 @@ contains
     integer :: i, k
 
     if (.not. variant%found%class%closes) then
+      if (variant%found%positions%before > 0) return
       call set_error(error, error_of_reach, variant%unreachable)
       call note_failure(variant, "variant", error, findings)
       return
@@ -40,8 +41,8 @@ contains
             if (has_law(variant%model)) then
               call note_at_position(variant, i, state%error, findings)
             else
-              call note_failure(variant, "position", state%error, findings, position=i, &
-                crank=positions%crank(i))
+              call note_failure(variant, "position", state%error, findings, &
+                position=positions%before + i, crank=positions%crank(i))
             end if
             cycle
           end if
@@ -91,12 +92,12 @@ contains
 
     call list_studies(studies)
     do k = 1, size(studies)
-      if (associated(studies(k)%add_warnings) .and. is_made(studies(k), variant%model)) &
-        call studies(k)%add_warnings(variant, findings)
+      if (associated(studies(k)%add_warnings) .and. needs_study(variant%model, &
+        studies(k)%name)) call studies(k)%add_warnings(variant, findings)
     end do
   end subroutine find_warnings
 
-  !> Totals of one variant, without times.
+  !> Totals of one variant or a block of its positions, without times.
   function totals_of(variant) result(totals)
     type(variant_results_t), intent(in) :: variant !! computed
     type(run_totals_t) :: totals
@@ -104,10 +105,12 @@ contains
     type(study_t), allocatable :: studies(:)
     integer :: k
 
-    totals%variants = 1
-    totals%rows = size(variant%found%positions%crank)
-    totals%positions = size(variant%found%positions%states)
-    totals%kinematic_solutions = totals%positions
+    associate (positions => variant%found%positions)
+      totals%variants = merge(1, 0, positions%before == 0)
+      totals%rows = size(positions%crank)
+      totals%positions = size(positions%states) - positions%repeated
+      totals%kinematic_solutions = size(positions%states)
+    end associate
     call list_studies(studies)
     do k = 1, size(studies)
       if (associated(studies(k)%add_work)) call studies(k)%add_work(variant, totals)

@@ -6,15 +6,17 @@ module variant_runs
   use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
+  use kinematics_study, only: widen_transmission_range
   use linkage_study, only: classify_linkage
   use mechanisms, only: new_mechanism
   use models, only: has_law, model_t, needs_positions, needs_study, report_number
   use named_parts, only: name_parts
-  use position_study, only: find_all_positions
-  use positions, only: refuse_change_points
+  use position_blocks, only: choose_block
+  use position_study, only: find_all_positions, place_positions
+  use positions, only: positions_t, refuse_change_points
   use reach_texts, only: open_linkage_text
   use structures, only: holds_at_change_points
-  use study_list, only: is_made, list_studies
+  use study_list, only: list_studies
   use study_of_frequencies, only: help_with_sweep
   use study_types, only: study_t, variant_run_t
   use task_journal, only: journal_t
@@ -22,7 +24,8 @@ module variant_runs
   implicit none (type, external)
   private
 
-  public :: variant_run_t, begin_variant_run, compute_variant, help_with_variant
+  public :: variant_run_t, begin_variant_run, compute_variant, begin_computing, block_count, &
+    compute_block, help_with_variant
 
 contains
 
@@ -35,7 +38,8 @@ contains
     run%results%mechanism = new_mechanism(model)
   end subroutine begin_variant_run
 
-  !> Makes all studies that a variant requests. Several variants may be computed at the same time.
+  !> Makes all studies that a variant requests, at all positions. Several variants may be computed
+  !! at the same time.
   !!
   !! Errors: the own modes of a link could not be found.
   subroutine compute_variant(run, threads, journal, group, store, error)
@@ -47,17 +51,51 @@ contains
     type(link_store_t), intent(inout), target :: store !! own modes of links found before
     type(error_t), allocatable, intent(out) :: error !! of the variant as a whole
 
-    type(study_t), allocatable :: studies(:)
-    integer :: i
+    call begin_computing(run, threads, journal, group, store)
+    call compute_block(run, 1, error)
+  end subroutine compute_variant
+
+  !> Begins a variant of which `compute_block` makes the studies.
+  subroutine begin_computing(run, threads, journal, group, store)
+    type(variant_run_t), intent(inout) :: run         !! begun, with its blocks if there are several
+    integer, intent(in) :: threads                    !! as for `compute_variant`
+    type(journal_t), intent(inout), target :: journal !! likewise
+    integer, intent(in) :: group                      !! likewise
+    type(link_store_t), intent(inout), target :: store !! likewise
 
     run%threads = threads
     run%journal => journal
     run%group = group
     run%store => store
-    call place_variant(run%results, threads)
+    call survey_positions(run)
+  end subroutine begin_computing
+
+  !> Number of blocks of positions.
+  pure function block_count(run) result(count)
+    type(variant_run_t), intent(in) :: run !! under way
+    integer :: count
+
+    count = 1
+    if (allocated(run%blocks)) count = run%blocks%count
+  end function block_count
+
+  !> Makes all studies at the positions of a block, in the order of blocks.
+  !!
+  !! Errors: as for `compute_variant`.
+  subroutine compute_block(run, number, error)
+    type(variant_run_t), intent(inout) :: run    !! begun; on return with results of the block
+    integer, intent(in) :: number                !! of the block, from 1
+    type(error_t), allocatable, intent(out) :: error !! of the variant as a whole
+
+    type(study_t), allocatable :: studies(:)
+    integer :: i
+
+    if (block_count(run) > 1) call place_block(run, number)
+    call name_positions(run%results)
+    if (run%results%mechanism%is_four_bar) call explain_positions(run%results)
     call list_studies(studies)
     do i = 1, size(studies)
-      if (.not. is_made(studies(i), run%results%model)) cycle
+      if (.not. needs_study(run%results%model, studies(i)%name)) cycle
       if (was_interrupted()) return
       call studies(i)%compute(run)
       if (allocated(run%error)) then
@@ -65,75 +103,99 @@ contains
         return
       end if
     end do
-  end subroutine compute_variant
+  end subroutine compute_block
 
   !> Helps the leader with the blocks of frequencies that it has announced.
-  subroutine help_with_variant(run, threads)
-    type(variant_run_t), intent(inout) :: run !! begun
+  subroutine help_with_variant(run, threads, block)
+    type(variant_run_t), intent(inout) :: run !! begun, with its blocks if there are several
     integer, intent(in) :: threads            !! number to use
+    integer, intent(in) :: block              !! number, from 1
 
     run%threads = threads
-    call find_positions_of(run%results, threads)
+    call place_block(run, block)
     call help_with_sweep(run)
   end subroutine help_with_variant
 
-  !> The positions that the reports need, what kind of linkage it is, and its range.
-  subroutine place_variant(variant, threads)
-    type(variant_results_t), intent(inout) :: variant !! with model and mechanism
-    integer, intent(in) :: threads
+  !> Finds all positions, block by block, and what is to be known of all before any row is written:
+  !! what kind of linkage it is, its transmission angles, its range. Those of the last block stay.
+  subroutine survey_positions(run)
+    type(variant_run_t), intent(inout) :: run !! begun
 
-    associate (model => variant%model, linkage => variant%mechanism%linkage, &
-        found => variant%found)
-      call find_positions_of(variant, threads)
-      call name_positions(variant)
-      if (variant%mechanism%is_four_bar) then
-        call classify_linkage(variant%mechanism%four_bar, found%class)
-        call explain_positions(variant)
+    logical :: has_gaps
+    integer :: i
+
+    associate (found => run%results%found, mechanism => run%results%mechanism)
+      has_gaps = report_number(run%results%model, "linkage") > 0
+      do i = 1, block_count(run)
+        if (was_interrupted()) return
+        call place_block(run, i)
+        if (.not. has_gaps) has_gaps = is_out_of_reach(found%positions)
+        if (allocated(mechanism%four_bar)) call widen_transmission_range(mechanism%linkage, &
+          mechanism%four_bar, found%positions, found%transmission)
+      end do
+      if (mechanism%is_four_bar) call classify_linkage(mechanism%four_bar, found%class)
+      if (allocated(run%blocks)) then
+        call find_home(run%blocks%model)
+      else
+        call find_home(run%results%model)
       end if
-      if (found%class%closes .and. .not. (model%is_structure .or. has_law(model))) &
-        call find_home_range(linkage, starting_cranks(model, linkage), model%crank%value, &
-        has_gaps(variant), found%home)
     end associate
-  end subroutine place_variant
 
-  !> The positions that the reports need.
-  subroutine find_positions_of(variant, threads)
-    type(variant_results_t), intent(inout) :: variant !! with model and mechanism
-    integer, intent(in) :: threads
+  contains
+
+    subroutine find_home(model)
+      type(model_t), intent(in) :: model !! with all positions
+
+      associate (found => run%results%found, linkage => run%results%mechanism%linkage)
+        if (found%class%closes .and. .not. (model%is_structure .or. has_law(model))) &
+          call find_home_range(linkage, starting_cranks(model, linkage), model%crank%value, &
+          has_gaps, found%home)
+      end associate
+    end subroutine find_home
+
+  end subroutine survey_positions
+
+  !> The positions of a block that the reports need.
+  subroutine place_block(run, number)
+    type(variant_run_t), intent(inout) :: run !! begun
+    integer, intent(in) :: number             !! of the block
 
     real(wp) :: none(0)
 
-    associate (model => variant%model, linkage => variant%mechanism%linkage)
-      ! Crank angles that no report needs must not fail.
-      if (needs_positions(model)) then
-        call find_all_positions(linkage, model%crank%value, threads, variant%found%positions, &
-          has_law(model))
-        if ((needs_study(model, "joints") .or. &
-          needs_study(model, "friction") .or. needs_study(model, "frequencies")) .and. .not. &
-          holds_at_change_points(variant%mechanism)) call refuse_change_points( &
-          variant%found%positions)
+    associate (variant => run%results, model => run%results%model, &
+        linkage => run%results%mechanism%linkage)
+      if (allocated(run%blocks)) then
+        call choose_block(run%blocks, linkage, number, variant%model, variant%found%positions)
+        call place_positions(linkage, run%threads, variant%found%positions)
+      else if (needs_positions(model)) then
+        call find_all_positions(linkage, model%crank%value, run%threads, &
+          variant%found%positions, has_law(model))
       else
-        call find_all_positions(linkage, none, threads, variant%found%positions)
+        ! Crank angles that no report needs must not fail.
+        call find_all_positions(linkage, none, run%threads, variant%found%positions)
       end if
+      if (any([needs_study(model, "joints"), needs_study(model, "friction"), &
+        needs_study(model, "frequencies")]) .and. .not. holds_at_change_points(variant%mechanism)) &
+        call refuse_change_points(variant%found%positions)
     end associate
-  end subroutine find_positions_of
+  end subroutine place_block
 
-  !> Whether positions are out of reach, or ranges are asked for.
-  pure function has_gaps(variant) result(has)
-    type(variant_results_t), intent(in) :: variant !! with positions
-    logical :: has
+  !> Whether positions are out of reach of the linkage as a whole.
+  pure function is_out_of_reach(positions) result(is)
+    type(positions_t), intent(in) :: positions !! with their states
+    logical :: is
 
     integer :: i
 
-    has = report_number(variant%model, "linkage") > 0
-    do i = 1, size(variant%found%positions%states)
-      if (has) return
-      associate (state => variant%found%positions%states(i))
-        if (allocated(state%error)) has = state%error%kind == error_of_reach .and. &
+    is = .false.
+    do i = 1, size(positions%states)
+      if (is) return
+      associate (state => positions%states(i))
+        if (allocated(state%error)) is = state%error%kind == error_of_reach .and. &
           state%error%place%pin == 0
       end associate
     end do
-  end function has_gaps
+  end function is_out_of_reach
 
   !> Puts names into the errors of positions.
   subroutine name_positions(variant)

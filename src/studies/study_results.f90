@@ -20,6 +20,7 @@ module study_results
   use response_types, only: response_t
   use stability_types, only: intervals_t, stability_t
   use sizing_study, only: sizing_result_t
+  use sweep_extremes, only: sweep_extremes_t
   use sweeps, only: sweep_t
   use transient_types, only: transient_t
   implicit none (type, external)
@@ -47,6 +48,7 @@ module study_results
     type(sizing_result_t) :: sizing
     type(motion_result_t) :: motion
     type(sweep_t) :: sweep
+    type(sweep_extremes_t) :: extremes                      !! of the sweep
     type(loci_t) :: loci
     type(response_t) :: response
     type(stability_t) :: stability

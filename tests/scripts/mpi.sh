@@ -45,13 +45,18 @@ sweep_deck() {
 long_deck() {
   beam_deck "VARY b 270 275 280" "CRANK 0 to 360 step 0.2" "REPORT frequencies" | sed 's/length=279.4/length=$b/'
 }
+# More than 100,000 rows: positions come in blocks.
+blocks_deck() {
+  beam_deck "CRANK 0 to 360 step 0.0035" "REPORT frequencies"
+}
 
 study_deck 0.5 >"$scratch/study.deck"
 sweep_deck 0.1 >"$scratch/sweep.deck"
 long_deck >"$scratch/long.deck"
+blocks_deck >"$scratch/blocks.deck"
 run 1 --format csv --out "$scratch/whole" "$scratch/study.deck"
 cp "$scratch/stderr" "$scratch/study.told"
-run 0 --format csv --out "$scratch/whole" "$scratch/sweep.deck" "$scratch/long.deck"
+run 0 --format csv --out "$scratch/whole" "$scratch/sweep.deck" "$scratch/long.deck" "$scratch/blocks.deck"
 
 # of_ranks NAME STATUS RANKS THREADS
 of_ranks() {
@@ -65,6 +70,7 @@ for count in 1 2 3 7; do
   done
 done
 check "long variants by 3 ranks of 2" of_ranks long 0 3 2
+check "positions in blocks by 3 ranks" of_ranks blocks 0 3 1
 
 # One rank speaks.
 once() {
@@ -77,7 +83,8 @@ check "one rank speaks" once
 
 several() {
   rm -rf "$scratch/many"
-  ranks 3 1 --format csv --out "$scratch/many" "$scratch/sweep.deck" "$scratch/study.deck" "$scratch/long.deck" &&
+  ranks 3 1 --format csv --out "$scratch/many" "$scratch/sweep.deck" "$scratch/study.deck" "$scratch/long.deck" \
+    "$scratch/blocks.deck" &&
     same "$scratch/many" "$scratch/whole"
 }
 check "several decks" several

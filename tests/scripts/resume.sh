@@ -123,6 +123,15 @@ garbage() {
 check "a journal that was cut off" from_journal sweep torn
 check "a journal with bytes after its end" from_journal vary garbage
 
+# More than 100,000 rows: positions come in blocks, each of many blocks of the journal.
+in_blocks() {
+  beam_deck "CRANK 0 to 360 step 0.0035" "REPORT frequencies" >"$scratch/blocks.deck"
+  run 0 --out "$scratch/whole" --format csv "$scratch/blocks.deck" || return 1
+  killed KILL "$scratch/killed" "$scratch/blocks.deck" --format csv || return 1
+  resumed blocks "$scratch/killed" --threads 2
+}
+check "positions in blocks continue" in_blocks
+
 blocks_told() {
   sed -n 's/.*resumed with \([0-9]*\) .*/\1/p' "$scratch/stderr"
 }

@@ -69,7 +69,8 @@ contains
     end if
   end subroutine refuse_mode
 
-  !> Adds needs and study of a report to those of another. All that have quantities have one study.
+  !> Adds needs and study of a report to those of another. All that have quantities have one study,
+  !! or none.
   pure subroutine join(source, kind)
     type(report_kind_t), intent(in) :: source
     type(report_kind_t), intent(inout) :: kind

@@ -16,8 +16,8 @@ module frequency_report
   use points_report, only: point_names
   use report_cards, only: report_t
   use report_kinds, only: report_kind_t
-  use report_types, only: add_table, fit_columns, plan_links, position_table_t, report_record_t, &
-    table_plan_t
+  use report_types, only: add_table, fit_columns, need_not_look_back, plan_links, &
+    position_table_t, report_record_t, table_plan_t
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: integer_cell, name_cell
@@ -33,6 +33,7 @@ module frequency_report
   !> `frequencies.dat`.
   type, extends(position_table_t) :: frequency_table_t
   contains
+    procedure, nopass :: looks_back => need_not_look_back
     procedure, nopass :: find_notes => frequency_notes
     procedure, nopass :: plan => plan_frequencies
     procedure, nopass :: fit => fit_frequencies

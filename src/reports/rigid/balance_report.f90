@@ -13,8 +13,8 @@ module balance_report
   use models, only: drives_length, model_t
   use position_rows, only: add_position_row
   use report_kinds, only: four_bars, other_linkages, report_kind_t
-  use report_types, only: add_table, fit_columns, report_record_t, state_table_t, table_plan_t, &
-    whole_table_t
+  use report_types, only: add_table, fit_columns, has_to_look_back, report_record_t, &
+    state_table_t, table_plan_t, whole_table_t
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
@@ -32,6 +32,7 @@ module balance_report
   !> `balance.dat` of a four-bar.
   type, extends(state_table_t) :: balance_table_t
   contains
+    procedure, nopass :: looks_back => has_to_look_back
     procedure, nopass :: find_notes => balance_notes
     procedure, nopass :: add_position => add_balance
   end type balance_table_t
@@ -46,6 +47,7 @@ module balance_report
   !> `balance.dat` of other linkages.
   type, extends(state_table_t) :: hung_balance_table_t
   contains
+    procedure, nopass :: looks_back => has_to_look_back
     procedure, nopass :: find_notes => hung_balance_notes
     procedure, nopass :: plan => plan_hung_balance
     procedure, nopass :: fit => fit_hung_balance

@@ -39,8 +39,8 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="kinematics", help="how the links move", &
-      pattern="REPORT kinematics [columns=] [format=]", studies="kinematics", positions=.true., &
-      reserved=.true., linkages=four_bars, numbers=11)
+      pattern="REPORT kinematics [columns=] [format=]", positions=.true., &
+      reserved=.true., linkages=four_bars)
     call add_table(report, kinematics_table_t(), "kinematics", "speed:speed crank,theta3,"// &
       "theta4:deg omega3,omega4:rate alpha3,alpha4:rad/s2 Ax,Ay,Bx,By:length "// &
       "transmission_angle:deg")
@@ -51,7 +51,7 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="kinematics", help="of other linkages: how the links move", &
-      pattern="REPORT kinematics [columns=] [format=]", studies="kinematics", positions=.true., &
+      pattern="REPORT kinematics [columns=] [format=]", positions=.true., &
       reserved=.true., linkages=other_linkages)
     call add_table(report, links_table_t(), "kinematics", "speed:speed crank:deg link:name "// &
       "theta:deg omega:rate alpha:rad/s2")

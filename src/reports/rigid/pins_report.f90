@@ -30,7 +30,7 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="pins", help="paths, velocities and accelerations of "// &
-      "the pins", pattern="REPORT pins [columns=]", studies="kinematics", positions=.true.)
+      "the pins", pattern="REPORT pins [columns=]", positions=.true.)
     call add_table(report, pins_table_t(), "pins", "speed:speed crank:deg pin:name x,"// &
       "y:length vx,vy:velocity ax,ay:acceleration")
   end subroutine describe_pins

@@ -26,8 +26,7 @@ contains
       call append_home_range(variant, notes)
       return
     end if
-    associate (class => variant%found%class, found => variant%found%transmission, &
-        crank => variant%found%positions%crank)
+    associate (class => variant%found%class, found => variant%found%transmission)
       call append_string(notes, class%grashof)
       if (.not. class%closes) then
         call append_string(notes, variant%unreachable)
@@ -41,10 +40,10 @@ contains
       if (size(class%limits) > 0) limits = limits//" deg"
       call append_string(notes, limits)
       call append_home_range(variant, notes)
-      if (found%at_least == 0) return
+      if (found%most < 0.0_wp) return
       call append_string(notes, "transmission angle: "// &
-        to_string(found%least)//" deg at crank "//to_string(crank(found%at_least), 10)//" to "// &
-        to_string(found%most)//" deg at crank "//to_string(crank(found%at_most), 10))
+        to_string(found%least)//" deg at crank "//to_string(found%at_least, 10)//" to "// &
+        to_string(found%most)//" deg at crank "//to_string(found%at_most, 10))
     end associate
   end function notes_on_linkage
 

@@ -6,6 +6,7 @@ module memory_needs
   use available_memory, only: available_memory_t, memory_text
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_memory
+  use kept_positions, only: positions_kept
   use kinds, only: wp
   use models, only: model_t
   use study_list, only: list_studies
@@ -17,9 +18,10 @@ module memory_needs
 
   public :: memory_of_run, check_memory
 
-  !> Bytes of a pose with its kinematic coefficients, and that every run takes; factor for memory
-  !! that is wasted between allocated pieces.
-  real(wp), parameter :: of_pose = 1050.0_wp, of_process = 1.0e7_wp, spare = 1.1_wp
+  !> Bytes of a pose with its kinematic coefficients, of a position in a list that comes in blocks,
+  !! and that every run takes; factor for memory that is wasted between allocated pieces.
+  real(wp), parameter :: of_pose = 1050.0_wp, of_listed = 80.0_wp, of_process = 1.0e7_wp, &
+    spare = 1.1_wp
 
 contains
 
@@ -61,8 +63,12 @@ contains
     allocate (needs%list(0))
     place = model%reports(1)%keyword
     if (size(model%crank%words) > 0) place = model%crank%words(1)
-    call add_need(needs, place, "the results at "//plural(size(model%crank%value), "position"), &
-      size(model%crank%value)*(of_pose + bytes_of_number*sum(model%reports%kind%numbers)))
+    needs%kept = positions_kept(model)
+    associate (positions => size(model%crank%value), kept => needs%kept, &
+        numbers => sum(model%reports%kind%numbers))
+      call add_need(needs, place, "the results at "//plural(positions, "position"), &
+        (positions - kept)*of_listed + kept*(of_pose + bytes_of_number*numbers))
+    end associate
     call list_studies(studies)
     do i = 1, size(studies)
       if (associated(studies(i)%add_memory)) call studies(i)%add_memory(model, needs)

@@ -31,7 +31,7 @@ contains
     speeds = speed_count(model)
     ! Results at positions are one need of the run.
     needs%list(1)%what = needs%list(1)%what//" and "//plural(speeds, "speed")
-    needs%list(1)%bytes = needs%list(1)%bytes + size(model%crank%value)*(of_position + &
+    needs%list(1)%bytes = needs%list(1)%bytes + needs%kept*(of_position + &
       speeds*(of_speed + 2*model%modes*bytes_of_number))
     call add_shapes_memory(model, needs)
   end subroutine add_frequency_memory

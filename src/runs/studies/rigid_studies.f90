@@ -13,7 +13,6 @@ module rigid_studies
   use joint_study, only: drives_at_speed, find_joints
   use joints_report, only: open_words
   use kinds, only: wp
-  use kinematics_study, only: find_transmission_range
   use lagrange_study, only: find_lagrange_terms
   use limits_study, only: find_branches, find_limits
   use models, only: balances, has_law, is_of_four_bar, model_t, report_number
@@ -41,7 +40,6 @@ contains
   subroutine add_rigid_studies(list)
     type(study_t), allocatable, intent(inout) :: list(:) !! to which they are appended
 
-    call add_study(list, study_t("kinematics", is_always_made=.true., compute=compute_kinematics))
     call add_study(list, study_t("geometry", compute=compute_geometry, &
       add_failures=add_geometry_failures, add_work=add_geometry_work))
     call add_study(list, study_t("inertia", compute=compute_inertia))
@@ -60,16 +58,6 @@ contains
       add_failures=add_sizing_failures))
     call add_study(list, study_t("equilibrium", compute=compute_equilibrium))
   end subroutine add_rigid_studies
-
-  !> Transmission angles of four-bars; all else is in the poses and their coefficients.
-  subroutine compute_kinematics(run)
-    type(variant_run_t), intent(inout), target :: run
-
-    associate (mechanism => run%results%mechanism, found => run%results%found)
-      if (allocated(mechanism%four_bar)) call find_transmission_range( &
-        mechanism%linkage, mechanism%four_bar, found%positions, found%transmission)
-    end associate
-  end subroutine compute_kinematics
 
   subroutine compute_geometry(run)
     type(variant_run_t), intent(inout), target :: run

@@ -1,6 +1,5 @@
 !> All studies.
 module study_list
-  use models, only: model_t, needs_study
   use rigid_studies, only: add_rigid_studies
   use studies_of_stability, only: add_stability_studies
   use study_of_frequencies, only: add_frequency_study
@@ -12,7 +11,7 @@ module study_list
   implicit none (type, external)
   private
 
-  public :: list_studies, is_made
+  public :: list_studies
 
 contains
 
@@ -29,15 +28,5 @@ contains
     call add_frequency_study(list)
     call add_loci_study(list)
   end subroutine list_studies
-
-  !> Whether a study is made of a model.
-  pure function is_made(study, model) result(is)
-    type(study_t), intent(in) :: study
-    type(model_t), intent(in) :: model !! with its reports
-    logical :: is
-
-    is = study%is_always_made
-    if (.not. is) is = needs_study(model, study%name)
-  end function is_made
 
 end module study_list

@@ -9,13 +9,12 @@ module study_of_frequencies
   use jobs, only: job_t
   use kinds, only: wp
   use link_store, only: link_store_t
-  use mechanisms, only: mechanism_t
   use mode_requests, only: drawn_states, mode_request_of
-  use models, only: model_t, speed_in_words
+  use models, only: speed_in_words
   use named_parts, only: name_outcomes
   use position_results, only: error_of_divergence, error_of_orders, error_of_position, &
     frequency_of, position_result_t
-  use positions, only: by_crank_angle, positions_t
+  use positions, only: by_crank_angle
   use progress, only: show_progress
   use rank_tasks, only: help_with_tasks
   use run_findings, only: failure_t, findings_t
@@ -24,7 +23,8 @@ module study_of_frequencies
     unit_of_positions
   use study_types, only: add_study, study_t, variant_run_t
   use sweep_bytes, only: pass_result
-  use sweeps, only: has_result, sweep_t
+  use sweep_extremes, only: row_place_t, widen_sweep_extremes
+  use sweeps, only: has_result
   use tasks, only: run_tasks
   use text, only: plural, to_string
   use units, only: from_si, unit_t
@@ -48,6 +48,7 @@ module study_of_frequencies
     type(variant_run_t), pointer :: variant => null() !! with the positions
     type(vibration_models_t) :: models                !! that serve the states
     integer, allocatable :: states(:)                 !! of the sweep, by crank angle
+    integer :: before = 0                             !! blocks before those of these states
     integer :: solved = 0                             !! states
   contains
     procedure :: run => run_block
@@ -74,29 +75,58 @@ contains
     type(sweep_job_t) :: job
     integer :: attempt, made
 
-    associate (mechanism => run%results%mechanism, positions => run%results%found%positions, &
-        sweep => run%results%found%sweep, store => run%store)
+    associate (positions => run%results%found%positions, sweep => run%results%found%sweep, &
+        store => run%store)
       call begin_job(job, run)
       if (allocated(run%announcement)) job%announcement = run%announcement
       made = store%made
       do attempt = 1, most_attempts
-        call new_vibration_models(mechanism%structure_t, positions, job%states, sweep%request, &
-          sweep%request%accuracy, store, job%models, sweep%counts, run%error)
+        if (attempt == 1) then
+          call take_first_models(run, store, job)
+        else
+          call new_vibration_models(run%results%mechanism%structure_t, positions, job%states, &
+            sweep%request, sweep%request%accuracy, store, job%models, sweep%counts, run%error)
+        end if
         if (allocated(run%error)) return
-        if (attempt == 1) sweep%models = job%models
-        job%solved = size(positions%states) - size(job%states)
-        call run_tasks(job, 1, block_count(size(job%states)), threads_of(run), run%journal, &
-          merge(run%group, -1, attempt == 1))
+        job%solved = positions%before + size(positions%states) - size(job%states)
+        call run_tasks(job, job%before + 1, job%before + block_count(size(job%states)), &
+          threads_of(run), run%journal, merge(run%group, -1, attempt == 1))
         ! Other ranks do not know which positions are solved again. They are few.
         if (allocated(job%announcement)) deallocate (job%announcement)
         job%states = missed_states(sweep, job%states)
         if (size(job%states) == 0 .or. was_interrupted()) exit
       end do
+      if (was_interrupted()) return
       sweep%counts%link_models = store%made - made
       call finish_sweep(sweep)
       call name_links(run%results)
+      call widen_sweep_extremes(positions, sweep, run%results%found%extremes)
     end associate
   end subroutine compute_frequencies
+
+  !> The models with which all positions are solved first, of orders chosen at some of them. Those
+  !! of a list that comes in blocks serve all blocks.
+  subroutine take_first_models(run, store, job)
+    type(variant_run_t), intent(inout) :: run         !! its error is set without models
+    type(link_store_t), intent(inout) :: store
+    type(sweep_job_t), intent(inout) :: job           !! begun
+
+    associate (structure => run%results%mechanism%structure_t, &
+        sweep => run%results%found%sweep)
+      if (allocated(run%models)) then
+        job%models = run%models
+      else if (allocated(run%blocks)) then
+        call new_vibration_models(structure, run%blocks%sample, &
+          by_crank_angle(run%blocks%sample), sweep%request, sweep%request%accuracy, store, &
+          job%models, sweep%counts, run%error)
+        run%models = job%models
+      else
+        call new_vibration_models(structure, run%results%found%positions, job%states, &
+          sweep%request, sweep%request%accuracy, store, job%models, sweep%counts, run%error)
+      end if
+      sweep%models = job%models
+    end associate
+  end subroutine take_first_models
 
   !> ARPACK serves one thread at a time: others would only wait.
   pure integer function threads_of(run)
@@ -117,6 +147,7 @@ contains
       call begin_sweep(request, drawn_states(model, positions, request%speed), &
         size(positions%states), run%results%found%sweep)
       job%states = by_crank_angle(positions)
+      job%before = block_count(positions%before)
     end associate
     job%variant => run
   end subroutine begin_job
@@ -128,15 +159,11 @@ contains
 
     type(sweep_job_t) :: job
     type(link_store_t) :: store
-    type(error_t), allocatable :: error
 
     call begin_job(job, run)
-    associate (sweep => run%results%found%sweep)
-      ! An error is that of the leader too, who does not call for help then.
-      call new_vibration_models(run%results%mechanism%structure_t, run%results%found%positions, &
-        job%states, sweep%request, sweep%request%accuracy, store, job%models, sweep%counts, error)
-      call help_with_tasks(job, threads_of(run))
-    end associate
+    ! An error is that of the leader too, who does not call for help then.
+    call take_first_models(run, store, job)
+    call help_with_tasks(job, threads_of(run))
   end subroutine help_with_sweep
 
   !> Puts names into the errors of rows.
@@ -159,7 +186,8 @@ contains
 
     call solve_block(self%variant%results%mechanism%structure_t, &
       self%variant%results%found%positions, &
-      self%models, block_of(self%states, number), self%variant%results%found%sweep)
+      self%models, block_of(self%states, number - self%before), &
+      self%variant%results%found%sweep)
   end subroutine run_block
 
   !> Passes the results of a block.
@@ -172,7 +200,7 @@ contains
     integer, allocatable :: block(:)
     integer :: i
 
-    block = block_of(self%states, number)
+    block = block_of(self%states, number - self%before)
     do i = 1, size(block)
       associate (result => self%variant%results%found%sweep%results(block(i)))
         if (stream%reads) result = none
@@ -186,9 +214,12 @@ contains
     class(sweep_job_t), intent(inout) :: self
     integer, intent(in) :: number
 
-    self%solved = self%solved + size(block_of(self%states, number))
-    call show_progress(self%variant%progress, self%solved, &
-      size(self%variant%results%found%sweep%results))
+    integer :: all
+
+    self%solved = self%solved + size(block_of(self%states, number - self%before))
+    all = size(self%variant%results%found%sweep%results)
+    if (allocated(self%variant%blocks)) all = size(self%variant%blocks%first_alike)
+    call show_progress(self%variant%progress, self%solved, all)
   end subroutine finish_block
 
   !> Speeds without frequencies at a position.
@@ -222,162 +253,93 @@ contains
     integer :: k
 
     ! Function results go through a variable: gfortran 12 does not free them if they are arguments.
-    associate (model => variant%model, positions => variant%found%positions, &
-        sweep => variant%found%sweep)
-      do k = 1, size(sweep%request%speed)
-        warning = divergences(model, positions, sweep, k)
-        call note_warning(variant, study_name, warning, findings)
-      end do
-      if (sweep%request%axial) then
-        warning = deflections(model, variant%mechanism, positions, sweep)
-        call note_warning(variant, study_name, warning, findings)
-      end if
-      if (sweep%request%method == by_orders) then
-        warning = missed_accuracy(model, positions, sweep)
-        call note_warning(variant, study_name, warning, findings)
-      end if
-    end associate
+    if (.not. allocated(variant%found%extremes%divergence)) return
+    do k = 1, size(variant%found%extremes%divergence)
+      warning = divergences(variant, k)
+      call note_warning(variant, study_name, warning, findings)
+    end do
+    warning = deflections(variant)
+    call note_warning(variant, study_name, warning, findings)
+    if (variant%found%sweep%request%method /= by_orders) return
+    warning = missed_accuracy(variant)
+    call note_warning(variant, study_name, warning, findings)
   end subroutine add_frequency_warnings
 
-  !> The crank angles at which an eigenvalue is negative at one speed. Neighbours in the deck's
-  !! list are joined to ranges.
-  pure function divergences(model, positions, sweep, speed) result(warning)
-    type(model_t), intent(in) :: model
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
+  !> The crank angles at which an eigenvalue is negative at one speed.
+  pure function divergences(variant, speed) result(warning)
+    type(variant_results_t), intent(in) :: variant
     integer, intent(in) :: speed !! number
-    type(warning_t) :: warning             !! without a text if there is none
+    type(warning_t) :: warning   !! without a text if there is none
 
     character(len=:), allocatable :: ranges
     type(unit_t) :: unit
-    integer :: i, first
+    integer :: i
 
     warning%kind = of_divergence
-    unit = unit_of_positions(model)
+    unit = unit_of_positions(variant%model)
     ranges = ""
-    first = 0
-    do i = 1, size(positions%crank)
-      if (diverges(positions, sweep, i, speed)) then
-        warning%amount = max(warning%amount, &
-          -minval(sweep%results(positions%state(i))%lambda(:, speed)))
-        if (first == 0) first = i
-      end if
-      if (first == 0) cycle
-      if (i < size(positions%crank)) then
-        if (diverges(positions, sweep, i + 1, speed)) cycle
-      end if
-      if (len(ranges) > 0) ranges = ranges//", "
-      ranges = ranges//to_string(from_si(positions%crank(first), unit), 10)
-      if (i > first) ranges = ranges//" to "//to_string(from_si(positions%crank(i), unit), 10)
-      first = 0
-    end do
-    if (len(ranges) == 0) return
-    warning%text = "static divergence at speed "// &
-      speed_in_words(model, speed, sweep%request%speed(speed))//", crank "//ranges// &
+    associate (divergence => variant%found%extremes%divergence(speed))
+      if (.not. allocated(divergence%range)) return
+      warning%amount = divergence%amount
+      do i = 1, size(divergence%range, 2)
+        if (i > 1) ranges = ranges//", "
+        ranges = ranges//to_string(from_si(divergence%range(1, i), unit), 10)
+        if (divergence%range(2, i) > divergence%range(1, i) .or. divergence%range(2, i) < &
+          divergence%range(1, i)) ranges = ranges//" to "// &
+          to_string(from_si(divergence%range(2, i), unit), 10)
+      end do
+    end associate
+    warning%text = "static divergence at speed "//speed_in_words(variant%model, speed, &
+      variant%found%sweep%request%speed(speed))//", crank "//ranges// &
       " "//unit%name//": an eigenvalue is negative, and so is the frequency written"
   end function divergences
 
   !> `speed 20 rad/s, crank 45 deg`
-  pure function place_of_row(model, sweep, crank, speed) result(place)
-    type(model_t), intent(in) :: model
-    type(sweep_t), intent(in) :: sweep
-    real(wp), intent(in) :: crank !! [deg] or [m]
-    integer, intent(in) :: speed  !! number
-    character(len=:), allocatable :: place
+  pure function words_of(place, variant) result(words)
+    type(row_place_t), intent(in) :: place
+    type(variant_results_t), intent(in) :: variant
+    character(len=:), allocatable :: words
 
     type(unit_t) :: unit
 
-    unit = unit_of_positions(model)
-    place = "speed "//speed_in_words(model, speed, sweep%request%speed(speed))//", crank "// &
-      to_string(from_si(crank, unit), 12)//" "//unit%name
-  end function place_of_row
-
-  !> Whether the lowest eigenvalue at a position and speed is negative.
-  pure function diverges(positions, sweep, position, speed)
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    integer, intent(in) :: position, speed !! numbers
-    logical :: diverges
-
-    associate (state => positions%state(position))
-      diverges = has_result(positions, sweep, state, speed)
-      if (diverges) diverges = any(sweep%results(state)%lambda(:, speed) < 0.0_wp)
-    end associate
-  end function diverges
+    unit = unit_of_positions(variant%model)
+    words = "speed "//speed_in_words(variant%model, place%speed, &
+      variant%found%sweep%request%speed(place%speed))//", crank "// &
+      to_string(from_si(place%crank, unit), 12)//" "//unit%name
+  end function words_of
 
   !> The largest static deflection under the loads, if it is too large for the theory of the axial
   !! frequencies.
-  pure function deflections(model, mechanism, positions, sweep) result(warning)
-    type(model_t), intent(in) :: model
-    type(mechanism_t), intent(in) :: mechanism
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    type(warning_t) :: warning             !! without a text if there is none
-
-    real(wp) :: largest
-    integer :: i, body, speed, at_body, at_speed, at_position
+  pure function deflections(variant) result(warning)
+    type(variant_results_t), intent(in) :: variant
+    type(warning_t) :: warning !! without a text if there is none
 
     warning%kind = of_deflection
-    largest = 0.0_wp
-    at_body = 1
-    at_speed = 1
-    at_position = 1
-    do i = 1, size(positions%crank)
-      if (allocated(positions%states(positions%state(i))%error)) cycle
-      do speed = 1, size(sweep%request%speed)
-        do body = 1, size(mechanism%names)
-          ! With a tolerance, so that of equal positions (0 and 360) the first is named.
-          if (sweep%results(positions%state(i))%deflection(body, &
-            speed) <= largest*(1.0_wp + 1.0e-12_wp)) cycle
-          largest = sweep%results(positions%state(i))%deflection(body, speed)
-          at_body = body
-          at_speed = speed
-          at_position = i
-        end do
-      end do
-    end do
-    if (largest <= most_deflection) return
-    warning%text = "the "//trim(merge("loads        ", "inertia loads", &
-      sweep%request%constant))//" at "//place_of_row(model, sweep, positions%crank(at_position), &
-      at_speed)//" deflect link '"//mechanism%names(at_body)%text//"'"
-    call judge_deflection(largest, "frequencies under these loads mean", "axial frequencies", &
-      warning)
+    associate (extremes => variant%found%extremes)
+      if (extremes%deflection <= most_deflection) return
+      warning%text = "the "//trim(merge("loads        ", "inertia loads", &
+        variant%found%sweep%request%constant))//" at "//words_of(extremes%at_deflection, &
+        variant)//" deflect link '"//variant%mechanism%names(extremes%deflected)%text//"'"
+      call judge_deflection(extremes%deflection, "frequencies under these loads mean", &
+        "axial frequencies", warning)
+    end associate
   end function deflections
 
   !> Number of rows with a frequency less accurate than requested, the worst of them, and what
   !! limits it there.
-  pure function missed_accuracy(model, positions, sweep) result(warning)
-    type(model_t), intent(in) :: model
-    type(positions_t), intent(in) :: positions
-    type(sweep_t), intent(in) :: sweep
-    type(warning_t) :: warning             !! without a text if there is none
-
-    real(wp) :: worst, error
-    integer :: i, k, rows, at_position, at_speed
+  pure function missed_accuracy(variant) result(warning)
+    type(variant_results_t), intent(in) :: variant
+    type(warning_t) :: warning !! without a text if there is none
 
     warning%kind = of_accuracy
-    worst = 0.0_wp
-    rows = 0
-    at_position = 1
-    at_speed = 1
-    do i = 1, size(positions%crank)
-      do k = 1, size(sweep%request%speed)
-        if (.not. has_result(positions, sweep, positions%state(i), k)) cycle
-        error = maxval(sweep%results(positions%state(i))%error(:, k))
-        if (error <= sweep%request%accuracy) cycle
-        rows = rows + 1
-        if (error <= worst) cycle
-        worst = error
-        at_position = i
-        at_speed = k
-      end do
-    end do
-    if (rows == 0) return
-    warning%amount = worst
-    warning%text = "the accuracy "//to_string(sweep%request%accuracy)// &
-      " is not reached in "//plural(rows, "row")//": the error is up to "//to_string(worst, 2)// &
-      ", at "//place_of_row(model, sweep, positions%crank(at_position), at_speed)// &
-      " ("//reason_of(sweep%results(positions%state(at_position))%cause(at_speed))//")"
+    associate (extremes => variant%found%extremes)
+      if (extremes%missed == 0) return
+      warning%amount = extremes%error
+      warning%text = "the accuracy "//to_string(variant%found%sweep%request%accuracy)// &
+        " is not reached in "//plural(extremes%missed, "row")//": the error is up to "// &
+        to_string(extremes%error, 2)//", at "//words_of(extremes%at_error, variant)// &
+        " ("//reason_of(extremes%cause)//")"
+    end associate
   end function missed_accuracy
 
   !> What limits the accuracy of a row, in words.

@@ -7,12 +7,14 @@ module study_types
   use kinds, only: wp
   use link_store, only: link_store_t
   use models, only: model_t
+  use position_blocks, only: position_blocks_t
   use progress, only: progress_t
   use run_findings, only: findings_t
   use run_totals, only: run_totals_t
   use task_journal, only: journal_t
   use tokens, only: token_t
   use variant_results, only: variant_results_t
+  use vibration_models, only: vibration_models_t
   implicit none (type, external)
   private
 
@@ -25,6 +27,8 @@ module study_types
   !> A variant under way, with what its studies take.
   type :: variant_run_t
     type(variant_results_t) :: results
+    type(position_blocks_t), allocatable :: blocks !! of a long list; the results are those of one
+    type(vibration_models_t), allocatable :: models !! of all blocks; not allocated before the first
     type(progress_t) :: progress                   !! silent unless it is started
     integer :: threads = 1                         !! on which it is computed
     type(link_store_t), pointer :: store => null() !! own modes of links found before
@@ -46,13 +50,13 @@ module study_types
   !> Memory of a run; the first need is that of the results at positions.
   type :: memory_needs_t
     integer :: threads = 1 !! that will compute it
+    integer :: kept = 0    !! positions whose results are kept at a time
     type(memory_need_t), allocatable :: list(:)
   end type memory_needs_t
 
   !> A study. Procedures that are not there have nothing to do.
   type :: study_t
     character(len=12) :: name = ""      !! as the records of reports have it
-    logical :: is_always_made = .false. !! the log tells of it
     procedure(computation), pointer, nopass :: compute => null()
     procedure(findings_at), pointer, nopass :: add_failures_at => null() !! of a position
     procedure(findings_of), pointer, nopass :: add_failures => null()

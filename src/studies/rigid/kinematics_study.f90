@@ -11,12 +11,12 @@ module kinematics_study
   private
 
   public :: link_at_speed, pin_at_speed, four_bar_at_speed, transmission_at, &
-    transmission_range_t, find_transmission_range
+    transmission_range_t, widen_transmission_range
 
   !> The least and the greatest transmission angle of a four-bar over a deck's list.
   type :: transmission_range_t
-    real(wp) :: least = huge(1.0_wp), most = -1.0_wp !! [deg]
-    integer :: at_least = 0, at_most = 0 !! numbers of the positions; 0: there is no pose at all
+    real(wp) :: least = huge(1.0_wp), most = -1.0_wp !! [deg]; most < 0: there is no pose at all
+    real(wp) :: at_least = 0.0_wp, at_most = 0.0_wp  !! crank angles [deg]
   end type transmission_range_t
 
 contains
@@ -85,12 +85,13 @@ contains
     angle = transmission_angle(linkage, state%pose, four_bar%dyad)/degree
   end function transmission_at
 
-  !> Positions of least and greatest transmission angle; of equal ones the first in the list.
-  pure subroutine find_transmission_range(linkage, four_bar, positions, range)
-    type(linkage_t), intent(in) :: linkage          !! a four-bar
-    type(four_bar_t), intent(in) :: four_bar        !! that it is
-    type(positions_t), intent(in) :: positions      !! of the run
-    type(transmission_range_t), intent(out) :: range
+  !> Takes the transmission angles at some positions into their range; of equal ones the first
+  !! counts.
+  pure subroutine widen_transmission_range(linkage, four_bar, positions, range)
+    type(linkage_t), intent(in) :: linkage              !! a four-bar
+    type(four_bar_t), intent(in) :: four_bar            !! that it is
+    type(positions_t), intent(in) :: positions          !! of the run, or a block of them
+    type(transmission_range_t), intent(inout) :: range  !! of the blocks before
 
     real(wp) :: angle
     integer :: i
@@ -100,11 +101,11 @@ contains
         if (allocated(state%error)) cycle
         angle = transmission_at(linkage, four_bar, state)
       end associate
-      if (angle < range%least) range%at_least = i
-      if (angle > range%most) range%at_most = i
+      if (angle < range%least) range%at_least = positions%crank(i)
+      if (angle > range%most) range%at_most = positions%crank(i)
       range%least = min(range%least, angle)
       range%most = max(range%most, angle)
     end do
-  end subroutine find_transmission_range
+  end subroutine widen_transmission_range
 
 end module kinematics_study
