@@ -1,3 +1,10 @@
+! src/base/ - what any file may use: kinds of numbers, constants, errors, warnings, units.
+! A failure is an `error_t`, allocated where it happens and passed up. Begin with `set_error` in
+! `errors.f90`. Units of decks are read by `read_unit` in `units.f90`; `output_units.f90` has those
+! of results.
+! Not here: text (`src/base/words`), files, signals, ranks (`src/base/system`), matrices and
+! integration (`src/base/numerics`).
+
 !> The kinds of numbers, in one place so that the whole program can be switched to another
 !! precision.
 module kinds

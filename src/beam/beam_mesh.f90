@@ -1,3 +1,11 @@
+! src/beam/ - links that bend, as beams: stiffnesses, elements, the mesh of a deck, straight parts.
+! In: a planned `linkage_t`, a `beam_t` for each body. Out: mesh and parts of a `structure_t`
+! (`structures.f90`). Begin with `new_beam_mesh` here and `new_elastic_linkage` in
+! `elastic_linkages.f90`, which divides links into parts between what holds them. Nodal matrices:
+! `assembly.f90`.
+! Not here: own modes of a link (`src/deformation/links`), poses and forces of parts
+! (`src/deformation/parts`).
+
 !> Nodes, elements and unknowns of a linkage of beams.
 !!
 !! Nodes are numbered round the loop as in the thesis. Every body has its own nodes, so that a pin

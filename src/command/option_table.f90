@@ -1,3 +1,9 @@
+! src/command/ - texts about the command line: options, the manual page, completion of shells.
+! Begin with `options` here, of which `manual_page_text` in `manual_page.f90` and `completion_text`
+! in `shell_completion.f90` make texts.
+! Not here: reading the command line (`src/command_line.f90`), help on cards
+! (`src/runs/texts/card_help.f90`).
+
 !> The table of the command line's options: `--help`, the manual page and the completion of shells
 !! are made from it.
 module option_table

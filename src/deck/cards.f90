@@ -1,3 +1,9 @@
+! src/deck/ - from files to cards: lines, words with their places, cards, messages at words.
+! In: the path of a deck. Out: a `card_t` for each card, a `token_t` for each word, messages in
+! `diagnostics_t`. Begin with `read_cards` here, for one file, and `read_all_cards` in
+! `includes.f90`, for a deck with all that it includes.
+! Not here: what cards mean, SET and VARY (`src/deck/language`), values in SI (`src/model`).
+
 !> Cards: a keyword, words and `key=value` entries.
 module cards
   use card_table, only: card_kind_number, card_kinds

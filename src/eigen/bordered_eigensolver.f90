@@ -1,3 +1,10 @@
+! src/eigen/ - eigenproblems of matrices whose unknowns have numbers and no names.
+! In: matrices, the number of modes wanted. Out: modes with error bounds, and a proof that none is
+! missing. Begin with `find_bordered_modes` here; for dampers `find_damped_modes` in
+! `damped_eigensolver.f90`, for band matrices `find_modes` in `nodal_eigensolver.f90`.
+! Not here: the matrices (`src/base/numerics`), what their unknowns mean (`src/vibration`), Floquet
+! exponents (`src/response/stability`).
+
 !> The lowest modes of `K y = λ M y` with `K = I + G` for bordered matrices, each with an error
 !! bound, and a proof that none is missing.
 !!

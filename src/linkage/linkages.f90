@@ -1,3 +1,12 @@
+! src/linkage/ - a planar linkage in the terms of mechanics, whatever deck it comes from.
+! A `linkage_t` has pins, bodies, joints, drives, loads, groups; a `pose_t` (`pose_types.f90`) is a
+! position of it. Begin with `linkage_t` here, then `find_pose` in `src/linkage/groups/poses.f90`.
+! Read on in `src/linkage/plan`, `src/linkage/groups`, `src/linkage/limits`, `src/linkage/loads`,
+! `src/linkage/statics`; beside them are `src/linkage/balance`, `src/linkage/four_bar`,
+! `src/linkage/free`.
+! Not here: how a linkage is made of cards (`src/mechanism`), bending (`src/beam`,
+! `src/deformation`).
+
 !> A planar linkage in terms of mechanics: pins, bodies between them, sliders, drives, and the
 !! groups in which it is placed, moved and solved.
 !!

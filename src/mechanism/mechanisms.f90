@@ -1,3 +1,10 @@
+! src/mechanism/ - the model in the terms of mechanics: names become numbers, cards become bodies.
+! In: a `model_t` without errors. Out: a `mechanism_t`: the structure, and the names of its links
+! and pins. Begin with `new_mechanism` here and `assemble_linkage` in `linkage_builder.f90`, which
+! makes the linkage and its plan; other builders make loads, friction, damping.
+! Not here: reading cards (`src/model`), what is refused because mechanics cannot do it
+! (`src/runs/checks`).
+
 !> Model → mechanism: the linkage with its masses and loads, its beams and its mesh.
 module mechanisms
   use applied_loads, only: forced_places

@@ -1,3 +1,10 @@
+! src/model/ - what a deck says: the linkage as its user describes it, and what is asked of it.
+! In: the cards of one variant. Out: a `model_t`, and messages at the words that they are about.
+! Begin with `model_t` here, then `read_model` in `model_reader.f90`, which calls all readers
+! (`src/model/cards`, `src/model/requests`) and checks (`src/model/checks`).
+! Not here: the language of cards (`src/deck/language`), bodies by number (`src/mechanism`), checks
+! by mechanics (`src/runs/checks`).
+
 !> The model: the contents of a deck in SI (crank angles in degrees), each part with the word of the
 !! deck it came from.
 module models

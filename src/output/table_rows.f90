@@ -1,3 +1,8 @@
+! src/output/ - tables, CSV and JSON as text, and the files of a run in their folder.
+! In: columns, rows (`rows_t`), texts. Out: files that appear when all of them are complete. Begin
+! with `open_table` and `write_rows` in `tables.f90`, then `put_in_place` in `output_folders.f90`.
+! Not here: what is in a table (`src/reports`), which files a run has (`src/runs/deck_outputs.f90`).
+
 !> Rows of a table before they are written: cells as text, gaps between blocks, failed rows.
 !!
 !! They are stored as bytes, item after item. Pieces that are computed in parallel can thus be

@@ -1,3 +1,10 @@
+! src/reports/ - from results to rows: what a report is, the list of reports, columns and units.
+! In: a `variant_results_t`. Out: `rows_t` of each table; the values are those of studies. Begin
+! with `table_t` and `plan_table` here, `list_reports` in `report_table.f90`, `find_rows` in
+! `report_rows.f90`. All but REPORT summary are in `src/reports/rigid`, `src/reports/motion`,
+! `src/reports/elastic`, their notes in `src/reports/words`.
+! Not here: files and CSV (`src/output`), results (`src/studies`).
+
 !> What a report and its tables are: objects that know what they need, their notes and their rows.
 !!
 !! A report is a record for the reader of decks, with its tables. A table extends one of the types

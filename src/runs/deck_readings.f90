@@ -1,3 +1,10 @@
+! src/runs/ - one deck from reading to files: read, checked, computed, written, put in place.
+! In: the path of a deck, options. Out: files in its folder, and messages that `src/main.f90`
+! prints. Begin with `read_deck` here and `run_deck` in `deck_runs.f90`; `compute_variant` in
+! `variant_runs.f90` knows no files. Further: `src/runs/checks`, `src/runs/studies`,
+! `src/runs/batch` (variants, ranks, journal), `src/runs/texts`.
+! Not here: reading the command line (`src/command_line.f90`), rows of tables (`src/reports`).
+
 !> Reading and checking of a deck with all its variants.
 module deck_readings
   use available_memory, only: find_available_memory

@@ -1,3 +1,10 @@
+! src/studies/ - from a request to a result, a file for each study; no deck, no table.
+! In: a linkage or a structure, positions, a request. Out: a component of `study_results_t`. Begin
+! with `find_all_positions` in `position_study.f90`; then a study, such as `find_joints` in
+! `src/studies/rigid/joint_study.f90`. Others: `src/studies/balance`, `src/studies/elastic`.
+! Not here: which studies a run makes (`src/runs/studies`), the methods (`src/linkage`,
+! `src/vibration`, `src/response`).
+
 !> Results of all studies of one variant; parts that no report needs are empty.
 module study_results
   use balance_study, only: balance_result_t

@@ -1,3 +1,11 @@
+! src/vibration/ - vibrations of the structure at a position: equations, frequencies, errors.
+! In: a structure, its `vibration_models_t`, a state. Out: a `position_result_t`; of all positions a
+! `sweep_t`. Begin with `solve_position` in `position_solver.f90`: `assemble_position` in
+! `position_assembly.f90` gives M and K_G, `solve_speeds` in `speed_solver.f90` the modes. Forces
+! that statics cannot divide: `divide_by_elasticity` in `elastic_reactions.f90`.
+! Not here: orders (`src/vibration/models`), rounding (`src/vibration/rounding`), eigensolvers
+! (`src/eigen`), equations over a turn (`src/response/turn`).
+
 !> The equations of motion of a structure at a position, in its links' own deformations.
 !!
 !! `M ÿ + (I + K_G) y = 0` with `K_G = K_const + ω2² K_ω + α2 K_α`: the mass matrix and the three

@@ -3,7 +3,8 @@
 
     check_layers.py [FOLDER]     the folder that holds src/, tests/ and docs/, by default the current one
 
-The layers and what each may use are those of the table in docs/architecture.md.
+The layers and what each may use are those of the table in docs/architecture.md. One file of every folder, its vocabulary,
+begins with a heading `! src/FOLDER/ - …`, which says what the folder is for; what it names has to be there.
 
 Prints `ok FILE` or `not ok FILE:LINE: why`; exit status 1 when anything is wrong.
 """
@@ -15,6 +16,7 @@ from glob import glob
 
 MOST_COLUMNS = 100
 MOST_FILES = 20  # of a folder
+MOST_LINES = 10  # of its heading
 INTRINSIC = {"iso_fortran_env", "iso_c_binding", "ieee_arithmetic", "ieee_exceptions", "ieee_features", "omp_lib"}
 FOREIGN = {"mpi_f08": "ranks_mpi"}  # a module of a library, and the one file that may use it
 
@@ -118,11 +120,49 @@ def width_faults(path):
                 yield number, f"wider than {MOST_COLUMNS} columns"
 
 
+def heading_of(path):
+    """The lines before the first empty one, if they are about a folder."""
+    with open(path, encoding="utf-8") as source:
+        text = source.read()
+    return text.partition("\n\n")[0].splitlines() if text.startswith("! src/") else []
+
+
+def public_names(path):
+    """The module of a file, and what it makes public."""
+    with open(path, encoding="utf-8") as source:
+        lists = re.findall(r"\bpublic\s*::((?:.*&\s*\n)*.*)", source.read())
+    return set(re.findall(r"\w+", " ".join(lists))) | {os.path.splitext(os.path.basename(path))[0]}
+
+
+def heading_faults(path, heading, public):
+    """What is wrong with the heading of a folder. `public`: the public names of every file."""
+    folder = os.path.dirname(path)
+    if not re.match(rf"! {folder}/ - \S", heading[0]):
+        yield 1, f"the heading of this folder begins with ! {folder}/ - "
+    if not all(line.startswith("! ") for line in heading):
+        yield len(heading), "a heading is a plain comment, with an empty line behind it"
+    elif len(heading) > MOST_LINES:
+        yield len(heading), f"a heading has at most {MOST_LINES} lines"
+    for number, line in enumerate(heading, 1):
+        for name in re.findall(r"`([^`]*)`", line):
+            if not (any(name in names for names in public.values()) or os.path.exists(name)
+                    or os.path.exists(os.path.join(folder, name))):
+                yield number, f"{name} is neither a public name nor a file"
+    text = " ".join(line[2:] for line in heading)
+    for names, file in re.findall(r"((?:`\w+`(?:, | and )?)+) (?:here|in `([\w/]+\.f90)`)", text):
+        place = file if "/" in file else os.path.join(folder, file) if file else path
+        for name in re.findall(r"`(\w+)`", names):
+            if name not in public.get(place, ()):
+                yield 1, f"{name} is not public in {place}"
+
+
 def main(root):
     os.chdir(root)
     layers = read_layers(os.path.join("docs", "architecture.md"))
     sources = sorted(glob("src/**/*.f90", recursive=True))
     layer_of_module = {os.path.splitext(os.path.basename(path))[0]: layer_of(path, layers) for path in sources}
+    headings = {path: heading_of(path) for path in sources}
+    public = {path: public_names(path) for path in sources}
     wrong = False
     modules_of_tests = set(glob("tests/unit/**/*.pf", recursive=True) + glob("tests/bench/*.f90")) - \
         {os.path.join("tests", "bench", "bench.f90")}
@@ -135,6 +175,8 @@ def main(root):
         found = list(faults(path, layer_of_module, layers, layer))
         if layer != "tests":
             found += width_faults(path)
+            if headings[path]:
+                found += heading_faults(path, headings[path], public)
         for number, why in found:
             print(f"not ok {path}:{number}: {why}")
         if not found:
@@ -144,6 +186,10 @@ def main(root):
         count = sum(os.path.dirname(path) == folder for path in sources)
         if count > MOST_FILES:
             print(f"not ok {folder}: {count} files, and a folder has at most {MOST_FILES}")
+            wrong = True
+        count = sum(os.path.dirname(path) == folder and bool(headings[path]) for path in sources)
+        if count != (0 if folder == "src" else 1):
+            print(f"not ok {folder}: {count} files begin with ! {folder}/ - …, where one has to (in src/ itself none)")
             wrong = True
     for layer, uses in layers.items():
         for folder in [layer] + uses:

@@ -1,3 +1,9 @@
+! src/base/numerics/ - numerical methods: matrices, integration, series, least squares.
+! Matrices of vibrations are bordered, those of nodal elements banded (`band_matrix.f90`), small
+! ones full (`dense_factor.f90`). Begin with `bordered_matrix_t` here; with a `rate_system_t` and
+! `advance` in `adaptive_integration.f90`; with `open_fourier` in `fourier_transform.f90`.
+! Not here: solvers of eigenproblems (`src/eigen`).
+
 !> Symmetric bordered block-diagonal matrices: a few border unknowns are coupled to all unknowns,
 !! the others to the border and within their own block only.
 !!

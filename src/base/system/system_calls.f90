@@ -1,3 +1,9 @@
+! src/base/system/ - what the operating system does: files, locks, signals, time, memory, ranks.
+! The calls of POSIX are declared here. Begin with `read_text` in `file_system.f90`, which uses
+! them. Long loops ask `was_interrupted` in `interruption.f90`; ranks exchange bytes by
+! `send_message` in `ranks.f90`.
+! Not here: the output folder of a run (`src/output`), tasks for ranks (`src/runs/batch`).
+
 !> The calls of the system, as POSIX has them, for which Fortran has no statements.
 module system_calls
   use, intrinsic :: iso_c_binding, only: c_char, c_funptr, c_int, c_long, c_null_ptr, c_ptr, &

@@ -1,3 +1,10 @@
+! src/deck/language/ - the language of decks: forms and keys of cards, reports, lists, SET and VARY.
+! In: cards. Out: the cards of each variant, with values for every $name; words of cards as values
+! in SI. Begin with `card_kinds` here, `read_deck_cards` in `variants.f90`, `read_quantity` in
+! `card_reader.f90`. A report is a `report_kind_t` (`report_kinds.f90`).
+! Not here: the readers of single cards (`src/model/cards`, `src/model/requests`), the list of
+! reports (`src/reports/report_table.f90`).
+
 !> The table of cards: form, default and purpose of each.
 !!
 !! A new card needs a record here, a file in `model/cards` that reads it, and a case in

@@ -1,3 +1,11 @@
+! src/deformation/links/ - one link in its own deformations: coordinates, own modes, M and K_G.
+! In: stiffnesses, length and masses of a link. Out: its `link_modes_t`; of all links M and K_G,
+! with the motion of the pins given. Begin with `bending_shapes` in `deformation_shapes.f90`, in
+! whose unknowns the elastic energy is ½yᵀy; then `new_link_modes` here, `reduced_mass` in
+! `reduced_assembly.f90`.
+! Not here: displacements of the pins (`src/deformation/pins`), all links of a linkage
+! (`src/vibration/models`).
+
 !> Component modes of a link: fixed-interface modes and constraint modes, once a run (Craig and
 !! Bampton, AIAA J. 6 (1968) 1313, with all modes kept, so that nothing is left out).
 !!

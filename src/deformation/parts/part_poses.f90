@@ -1,3 +1,10 @@
+! src/deformation/parts/ - links cut in straight parts at a position: places, loads and forces.
+! In: an `elastic_linkage_t`, own modes of its parts, pose and unit loads of the linkage. Out:
+! `chords_t`, `part_forces_t`. Begin with `place_parts_of` here; then `find_part_chords` in
+! `part_displacements.f90`, `find_part_loads` here, `find_part_forces` in `part_forces.f90`. Forces
+! in joints that statics cannot tell apart: `take_part_reactions` in `part_reactions.f90`.
+! Not here: the division into parts (`src/beam`), rows of the border (`src/deformation/pins`).
+
 !> Pose and loads of the parts of a vibrating linkage, from those of the linkage that moves.
 module part_poses
   use acceleration_fields, only: acceleration_field_t, point_acceleration

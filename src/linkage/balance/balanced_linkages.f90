@@ -1,3 +1,10 @@
+! src/linkage/balance/ - counterweights, balance shafts, and shaking forces over a cycle.
+! In: a linkage without counterweights. Out: a `counterweight_t` for each body; `balanced_linkage`
+! fixes them to it. Begin with `find_hung_counterweights` in `hung_counterweights.f90`, which cancel
+! the shaking force; `find_parts` in `crank_cycle.f90` has shaking force, shaking moment and torque.
+! Not here: counterweights of four-bars (`src/linkage/four_bar`), least squares over a turn
+! (`src/studies/balance`).
+
 !> Counterweights: masses fixed to links, each about one of its pins.
 module balanced_linkages
   use constants, only: pi

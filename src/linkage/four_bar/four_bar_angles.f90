@@ -1,3 +1,10 @@
+! src/linkage/four_bar/ - closed forms that hold for a four-bar only, on both branches.
+! In: ground pivots, lengths of crank, coupler, follower. Out: angles, ranges, special positions.
+! Begin with `angles_at` here and `crank_reach` in `four_bar_limits.f90`. Full force balance:
+! `counterweights.f90`.
+! Not here: which linkages are four-bars (`src/linkage/four_bar_loops.f90`); poses and forces, found
+! as of any linkage (`src/linkage/groups`, `src/linkage/statics`).
+
 !> Angles of a four-bar at a crank angle in closed form, valid also where links are in line.
 !!
 !! The diagonal from A to O4 divides the four-bar into two triangles. Ground and crank give its

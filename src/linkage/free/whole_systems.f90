@@ -1,3 +1,11 @@
+! src/linkage/free/ - forward dynamics: the motion of a linkage under a motor and all other loads.
+! In: a planned linkage, its free drives, a `drive_t`, a `gear_t`. Out: a `linkage_sample_t` at each
+! instant. Begin with `start_linkage_motion` and `move_linkage_until` in `linkage_motions.f90`, then
+! `find_instant` in `linkage_rates.f90`. Coordinates are those of the drives, near dead points of a
+! chart (`motion_charts.f90`), of a four-bar along its curve (`loop_curves.f90`).
+! Not here: inverse dynamics (`src/linkage/statics`), elastic motions in time
+! (`src/response/transient`).
+
 !> A linkage as one system of equations, without the free drives: what it demands wherever it moves,
 !! also where its groups cannot be placed one after the other.
 !!

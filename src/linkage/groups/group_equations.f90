@@ -1,3 +1,11 @@
+! src/linkage/groups/ - positions, velocities and accelerations of a linkage, group after group.
+! In: a planned `linkage_t`, the coordinate of its first drive. Out: a `pose_t`, its
+! `kinematic_coefficients_t`. Begin with `find_pose` in `poses.f90` and
+! `find_kinematic_coefficients` in `kinematic_coefficients.f90`. The constraint equations are here,
+! with gradients and curvatures.
+! Not here: the order of the groups (`src/linkage/plan`), ways through change points
+! (`src/linkage/limits`).
+
 !> What pins of bodies, sliders, turns and drives demand of the pose: misfits, gradients, and second
 !! derivatives along the motion.
 !!

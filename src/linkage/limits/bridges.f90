@@ -1,3 +1,10 @@
+! src/linkage/limits/ - how far a linkage moves: ranges of drives, dead points, change points.
+! In: a planned linkage. Out: its `path_t`; ranges of its drives, with extreme values and dead
+! points in them. Begin with `follow_path` in `linkage_paths.f90`, then `find_ranges` in
+! `crank_limits.f90` and `find_extremes` in `crank_extremes.f90` (transmission angles, strokes).
+! Not here: the pose at a coordinate (`src/linkage/groups`), limits of four-bars in closed form
+! (`src/linkage/four_bar`).
+
 !> Places on a bridge: polynomials through nodes on both sides of a change point.
 !!
 !! Weights of a polynomial's value and of its derivatives at a place follow from those through fewer

@@ -1,3 +1,11 @@
+! src/linkage/loads/ - loads on a linkage: inertia, weights, springs, dampers, processes, friction.
+! In: a linkage at a pose, its kinematic coefficients. Out: `unit_loads_t`: load cases of ω2², of
+! α2, and constant loads. Begin with `find_unit_loads` in `load_cases.f90`; what depends on the
+! speed otherwise: `find_running_loads` in `running_loads.f90`. Springs and processes:
+! `applied_loads.f90`.
+! Not here: forces in the joints (`src/linkage/statics`), loads of parts that bend
+! (`src/deformation/parts`).
+
 !> Loads on a linkage beside its weights and the constant forces and torques: what springs, dampers
 !! and processes put on it.
 module applied_load_types

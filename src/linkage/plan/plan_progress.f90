@@ -1,3 +1,10 @@
+! src/linkage/plan/ - in which order a linkage is placed: groups, from ground pivots and drives on.
+! In: a `linkage_t` with its drawing, a `side_t` for each card about a pin. Out: groups and
+! redundant equations, or a `plan_problem_t`. Begin with `plan_linkage` in `assembly_plan.f90`:
+! closed forms first, then `take_rest` in `plan_iterations.f90`. Among assemblies `choose_assembly`
+! in `chosen_assemblies.f90` decides.
+! Not here: placing the groups (`src/linkage/groups`), problems in words (`src/runs/checks`).
+
 !> What a plan has placed so far, what follows from that, and the groups that it adds.
 module plan_progress
   use linkages, only: demand_angle, demand_length, drive_of_nothing, group_t, group_carried, &

@@ -1,3 +1,11 @@
+! src/linkage/statics/ - forces in the joints of a rigid linkage, and the torque for a given motion.
+! In: a pose, loads on bodies and pins. Out: `joint_forces_t`; `unit_reactions_t` for all load
+! cases, with shaking force. Begin with `find_joint_forces` here, from the last group to the first,
+! then `find_unit_reactions` in `reactions.f90`. Lagrange's equation: `find_lagrange` in
+! `lagrange.f90`.
+! Not here: loads (`src/linkage/loads`), links that are more than statics needs
+! (`src/vibration/elastic_reactions.f90`).
+
 !> Forces in the pins, from the equilibrium of every link.
 module joint_forces
   use dense_factor, only: dense_factor_t, solve_transposed

@@ -1,3 +1,9 @@
+! src/model/cards/ - readers of the cards that describe a linkage, its loads and drives.
+! In: a `card_t`, the units of bare numbers. Out: a record in SI, messages in `diagnostics_t`. Begin
+! with `read_link` here; other readers are like it, and `src/model/model_reader.f90` calls them.
+! Not here: looking up names that cards use (`src/model/checks`), cards of requests
+! (`src/model/requests`).
+
 !> LINK card: a beam with a material and a section, or a rigid body of any shape.
 module link_cards
   use card_reader, only: check_form, has_key, has_value, key_of, read_entry_quantity, &

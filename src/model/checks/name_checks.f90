@@ -1,3 +1,10 @@
+! src/model/checks/ - cards against each other: names, shapes of links, drives, springs, laws.
+! In: a `model_t` with its cards read. Out: messages, and numbers of other cards in place of names.
+! Begin with `check_names` here, then follow the calls of `read_model` in
+! `src/model/model_reader.f90`.
+! Not here: a card by itself (`src/model/cards`), requests (`src/model/requests`), checks by
+! mechanics (`src/runs/checks`).
+
 !> Names across cards: duplicate definitions, and references from card to card.
 module name_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t

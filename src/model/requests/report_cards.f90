@@ -1,3 +1,9 @@
+! src/model/requests/ - what a deck asks for: reports, positions, speeds, units, effects, balance.
+! In: cards, the kinds of reports. Out: a `report_t` for each REPORT card, other requests, messages
+! on what is missing. Begin with `read_report` here, then `check_requests` in `request_checks.f90`,
+! `check_report_needs` in `report_needs.f90`.
+! Not here: tables (`src/reports`), requests in the terms of mechanics (`src/runs/studies`).
+
 !> REPORT card: requests one or several tables.
 module report_cards
   use card_reader, only: check_words, has_key, has_value, read_choice, read_entry_accuracy, &

@@ -1,3 +1,10 @@
+! src/reports/elastic/ - tables of links that bend: frequencies, loci, response, strains, stability.
+! In: a `variant_results_t`. Out: rows. A file describes one report, or two, for `list_reports` in
+! `src/reports/report_table.f90`. Begin with `describe_response` here, a short one. Shared:
+! `plan_gauges` in `strains_report.f90`, `stability_words` in `stability_report.f90`.
+! Not here: notes common to the response (`src/reports/words/response_notes.f90`), results
+! (`src/studies/elastic`).
+
 !> `response.dat`: displacements of pins and points from where they are with rigid links.
 module response_report
   use constants, only: degree

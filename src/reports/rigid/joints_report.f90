@@ -1,3 +1,10 @@
+! src/reports/rigid/ - tables of the rigid linkage: kinematics, forces, friction, balance, limits.
+! In: a `variant_results_t`. Out: rows. A file describes one report, or a few, for `list_reports` in
+! `src/reports/report_table.f90`. Begin with `describe_joints` here. Shared: `plan_joints` here,
+! `pin_names` in `pins_report.f90`, `point_names` in `points_report.f90`.
+! Not here: results (`src/studies/rigid`, `src/studies/balance`), notes on loads
+! (`src/reports/words`), motions (`src/reports/motion`).
+
 !> `reactions.dat` of linkages that are no four-bars; `drives.dat` and `shaking.dat` of any.
 module joints_report
   use drive_motions, only: drive_rates, place_columns, table_place

@@ -1,3 +1,10 @@
+! src/reports/words/ - words for heads of tables, failed rows and the log: positions, loads, links.
+! In: a `variant_results_t`, or model and mechanism. Out: lines of text, in the units of the deck's
+! results. Begin with `append_load_notes` in `load_notes.f90`, which tables of forces have at their
+! head. Requests of two studies are made of cards here, too: `balance_requests.f90`,
+! `sizing_requests.f90`.
+! Not here: plans and processes in words (`src/mechanism`), messages of a run (`src/runs/texts`).
+
 !> Positions of the first drive as tables show them.
 module drive_positions
   use kinds, only: wp

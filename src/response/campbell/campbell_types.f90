@@ -1,3 +1,9 @@
+! src/response/campbell/ - Campbell diagrams and critical speeds of a turning elastic linkage.
+! In: a structure, a `stability_request_t`. Out: a `campbell_t`. Begin with `find_campbell` in
+! `campbell.f90`: after the exponents `find_bands` in `frozen_bands.f90`, then
+! `find_critical_speeds` in `critical_speeds.f90`.
+! Not here: Floquet exponents, and crossings of their multipliers (`src/response/stability`).
+
 !> What is asked of a Campbell diagram, and what is found: bands of frozen frequencies, Floquet
 !! frequencies, critical speeds.
 module campbell_types

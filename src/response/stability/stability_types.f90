@@ -1,3 +1,10 @@
+! src/response/stability/ - free vibrations of a turning elastic linkage: Floquet exponents.
+! In: a structure, a `stability_request_t`. Out: `stability_t`, or `intervals_t` of parametric
+! resonance. Begin with `find_stability` in `stability.f90`: `find_spectrum` in `turn_spectra.f90`,
+! by slow motions, then `find_floquet_modes` in `floquet_exponents.f90`, by the whole equation.
+! Intervals: `find_intervals` in `instability_intervals.f90`.
+! Not here: the equation (`src/response/turn`), the response to loads (`src/response/steady`).
+
 !> What is asked of the stability of a motion, and what is found.
 module stability_types
   use elastic_equations, only: elastic_terms_t

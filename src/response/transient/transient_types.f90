@@ -1,3 +1,10 @@
+! src/response/transient/ - elastic motions in time at a prescribed motion of the crank.
+! In: a structure, a `transient_request_t`. Out: a `transient_t` with estimated errors. Begin with
+! `find_transients` in `transient_responses.f90`: `find_start` in `transient_starts.f90`, then
+! `solve_motion` in `transient_motions.f90`.
+! Not here: the motion of the crank (`src/response/turn/crank_laws.f90`), motions under a motor
+! (`src/linkage/free`).
+
 !> What is asked of an elastic motion in time, and what is found.
 module transient_types
   use errors, only: error_t, outcome_t

@@ -1,3 +1,11 @@
+! src/response/turn/ - the equations of motion of an elastic linkage over a turn of its crank.
+! In: a structure, a `deformation_model_t`. Out: a `turn_grid_t` with all terms; the forces of a
+! motion on its unknowns. Begin with `new_turn_grid` here and `apply_equation` in
+! `elastic_equations.f90`; at any crank angles `place_grid` in `path_grids.f90`,
+! `find_motion_matrices` in `motion_matrices.f90`.
+! Not here: solutions (`src/response/steady`, `src/response/stability`, `src/response/transient`),
+! equations at a position (`src/vibration/position_equations.f90`).
+
 !> The terms of the equations of motion of an elastic linkage at evenly spaced crank angles of a
 !! turn. They do not depend on the speed: one grid serves all.
 !!

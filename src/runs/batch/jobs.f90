@@ -1,3 +1,11 @@
+! src/runs/batch/ - many tasks on threads, ranks and in several runs; the journal of what is done.
+! In: a `job_t` with numbered tasks. Out: their results, finished in the order of the tasks, whoever
+! did them. Begin with `run_tasks` in `tasks.f90`, then `run_variant_tasks` in `variant_tasks.f90`,
+! `open_journal` in `task_journal.f90`. Other ranks begin with `serve_leader` in `rank_service.f90`.
+! Parts of a study: `read_parts` in `part_files.f90`.
+! Not here: MPI (`src/base/system/ranks.f90`), what a variant computes
+! (`src/runs/variant_runs.f90`).
+
 !> What a job is: tasks that are independent of each other, such as the blocks of a long sweep or
 !! the variants of a deck, whose results are put together in the order of the tasks.
 module jobs

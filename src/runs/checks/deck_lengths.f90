@@ -1,3 +1,10 @@
+! src/runs/checks/ - what mechanics refuses or warns of before a run, at words of the deck.
+! In: a `model_t` without errors. Out: errors and warnings in `diagnostics_t`. Begin with
+! `check_mechanics` in `deck_checks.f90`; it calls `check_linkage` in `linkage_checks.f90` where
+! there is no four-bar, `report_problem` in `plan_faults.f90` where there is no plan.
+! Not here: checks without mechanics (`src/model/checks`), what fails in a computation
+! (`src/runs/variant_findings.f90`).
+
 !> Lengths and positions in the unit of a deck, as its messages have them.
 module deck_lengths
   use kinds, only: wp

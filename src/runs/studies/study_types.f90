@@ -1,3 +1,8 @@
+! src/runs/studies/ - studies as a run knows them: requests of a model, failures, warnings, memory.
+! In: a `variant_run_t`. Out: its results; `findings_t`, `run_totals_t`. Begin with `study_t` here
+! and `list_studies` in `study_list.f90`; `add_motion_study` in `study_of_motion.f90` is an example.
+! Not here: the computations (`src/studies`), tables of the results (`src/reports`).
+
 !> What a study is: how it is computed, what of it may fail, what it warns of, how much it took.
 !!
 !! A study is a record of procedures in a file of its own; `study_list` has all of them. Its results

@@ -1,3 +1,10 @@
+! src/runs/texts/ - what a run says beside its tables: summary, log, echo, JSON, progress, help.
+! In: model, findings, totals. Out: texts, which the callers write; `progress.f90` writes by itself.
+! Begin with `summary_text` here, `log_of_variant` in `variant_log.f90`, `findings_messages` in
+! `findings_texts.f90`.
+! Not here: errors of a deck with carets (`src/deck/diagnostics.f90`), words in heads of tables
+! (`src/reports/words`).
+
 !> `summary.json`, and its parts that `--json` prints too: errors, warnings and failed positions as
 !! JSON.
 module deck_summary

@@ -1,3 +1,9 @@
+! src/studies/balance/ - balancing: counterweights and shafts, forces with them, harmonics.
+! In: a linkage; a `balance_request_t` for other aims than full force balance. Out:
+! `balance_result_t`, `harmonics_result_t`. Begin with `find_balance` in `balance_study.f90`:
+! `find_cancelling_weights` in `harmonics_study.f90`, or `find_partial_balance` here.
+! Not here: counterweights themselves, and the forces of a cycle (`src/linkage/balance`).
+
 !> Counterweights that minimise shaking force, shaking moment and driving torque over a turn, and
 !! balance shafts that cancel harmonics of the shaking force.
 !!

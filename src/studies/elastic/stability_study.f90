@@ -1,3 +1,10 @@
+! src/studies/elastic/ - studies of links that bend: frequencies, loci, response, stability.
+! In: a `structure_t`, a request. Out: results, most of them of types in `src/vibration` and
+! `src/response`. Begin with `find_stability_of` here, a short one, then `solve_block` in
+! `frequency_study.f90`.
+! Not here: elastic motions in time, which runs take from
+! `src/response/transient/transient_responses.f90`.
+
 !> Stability of the motion at all speeds of a deck.
 module stability_study
   use instability_intervals, only: find_intervals

@@ -1,3 +1,10 @@
+! src/vibration/loci/ - modes followed by their shapes over positions and speeds; mode shapes.
+! In: a `sweep_t` with prints of its modes. Out: `loci_t`, with crossings and veerings; `shapes_t`.
+! Begin with `follow_loci` here, then `prints_of` in `mode_prints.f90`. Shapes: `sample_reduced` in
+! `shape_samples.f90`.
+! Not here: likeness of modes (`src/eigen/modal_assurance.f90`), rows of a locus
+! (`src/studies/elastic/loci_study.f90`).
+
 !> Modes followed by their shapes along crank angle and speed.
 module frequency_loci
   use bordered_eigensolver, only: bordered_modes_t

@@ -1,3 +1,11 @@
+! src/vibration/mesh/ - frequencies of the mesh that a deck gives, beside those of continuous links.
+! In: a structure with a mesh, a state, unit loads. Out: frequencies in a `position_result_t`; to
+! their error the difference to continuous links is added. Begin with `solve_mesh` in
+! `mesh_solver.f90` (own modes of links) and `solve_nodal` in `nodal_solver.f90` (nodal
+! displacements).
+! Not here: elements and nodal matrices (`src/beam`), orders that the program chooses
+! (`src/vibration/models`).
+
 !> Axial forces in the elements of the deck's own mesh under the unit loads.
 module mesh_forces
   use axial_forces, only: distributed_axial_forces, link_axial_force, lump_functions, &

@@ -1,3 +1,11 @@
+! src/vibration/models/ - all links of a linkage in own modes: orders, their errors, the store.
+! In: a structure, positions, a `mode_request_t`. Out: `vibration_models_t`, made of
+! `deformation_model_t`. Begin with `new_vibration_models` in `vibration_models.f90`:
+! `choose_orders` in `order_choice.f90`, `new_deformation_model` here, `find_link` in
+! `link_store.f90`.
+! Not here: own modes of one link (`src/deformation/links`), the equations at a position
+! (`src/vibration`).
+
 !> A linkage of beams, described by the links' own deformations. The model holds everything that is
 !! independent of the position and is built once per run.
 module deformation_model

@@ -1,3 +1,10 @@
+! src/vibration/rounding/ - what rounding does to the frequencies at a position.
+! In: modes and matrices of a position. Out: relative errors of eigenvalues, for `solve_position` in
+! `src/vibration/position_solver.f90`. Begin with `pose_error` in `pose_rounding.f90` (the position
+! is rounded), `find_matrix_errors` in `matrix_rounding.f90` (M and K_G are).
+! Not here: errors of polynomial orders (`src/vibration/models`), of iterations (`src/eigen`), of
+! nodal matrices (`src/beam/round_off.f90`).
+
 !> Sensitivity of eigenvalues to changes of the matrices at a position.
 !!
 !! The eigenvalue of a mode of `(K + K_G) y = λ M y` with yᵀMy = 1 changes, to first order, by
