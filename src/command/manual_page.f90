@@ -26,7 +26,7 @@ contains
       version_number//'" "User Commands"'//line_feed)
     call append_section(page, "NAME")
     call append_line(page, program_name// &
-      " - dynamics and vibration of flexible four-bar linkages")
+      " - dynamics and vibration of planar linkages")
     call append_section(page, "SYNOPSIS")
     call append_text(page, ".B "//program_name//line_feed//"[options] DECK..."//line_feed)
     call append_section(page, "DESCRIPTION")

@@ -22,7 +22,6 @@ module models
   use load_cards, only: force_card_t, torque_card_t
   use materials, only: material_t
   use motion_programs, only: motion_program_t
-  use motion_programs, only: motion_program_t
   use motor_cards, only: motor_t
   use process_cards, only: over_nothing, process_card_t
   use output_units, only: output_units_t

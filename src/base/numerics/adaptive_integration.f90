@@ -4,8 +4,7 @@
 !! stability allows and not as the error allows, an implicit method goes on (`implicit_steps`), as
 !! long as this takes fewer evaluations of the rates.
 !!
-!! The only module that handles pointers of C. The library computes in double precision, whatever
-!! the working precision.
+!! The library computes in double precision, whatever the working precision.
 module adaptive_integration
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_funptr, &
     c_int, c_loc, c_null_funptr, c_null_ptr, c_ptr, c_size_t

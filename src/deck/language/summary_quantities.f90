@@ -1,6 +1,6 @@
 !> The quantities of REPORT summary: what each is, and the report that has it at every position.
 !!
-!! A new one is a record here, and a case of `find_value` in `summary_report`.
+!! A new one is a record here, and a case of `find_value` in `summary_values`.
 module summary_quantities
   use numbers, only: read_integer
   use errors, only: error_t
