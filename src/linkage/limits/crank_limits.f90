@@ -4,6 +4,7 @@ module crank_limits
   use kinds, only: wp
   use linkage_paths, only: period_of
   use linkages, only: bridge_t, drive_of_angle, linkage_t
+  use low_points, only: find_gap, find_sines
   use pose_types, only: pose_t
   use poses, only: place_links
   use sorting, only: ascending_order
@@ -48,8 +49,9 @@ contains
     type(crank_range_t) :: range
     real(wp) :: step, c, period, first
     real(wp) :: place
+    real(wp), allocatable :: sine(:, :)
     logical, allocatable :: closes(:)
-    logical :: is_angle
+    logical :: is_angle, found
     integer, allocatable :: order(:)
     integer :: i, k, n, group
 
@@ -78,16 +80,20 @@ contains
       return
     end if
     n = samples*nint(period/360.0_wp)
-    allocate (closes(0:n))
+    allocate (closes(0:n), sine(size(linkage%groups), 0:n + 1))
     do i = 0, n
-      closes(i) = is_closed(linkage, period*i/n)
+      call find_sines(linkage, period*i/n, sine(:, i), closes(i))
     end do
+    sine(:, n + 1) = sine(:, 1)
     ! From a gap on, round the period.
     k = findloc(closes(:n - 1), .false., dim=1) - 1
     do i = 1, n
       if (k >= 0) exit
       call find_jump(linkage, period*(i - 1)/n, period*i/n, group, place)
       if (group > 0) k = i - 1
+      if (group > 0) exit
+      call find_gap(linkage, period*[i - 1, i, i + 1]/n, sine(:, i - 1:i + 1), found, place)
+      if (found) k = floor(place*n/period)
     end do
     if (k < 0) then
       range%to = period
@@ -167,11 +173,9 @@ contains
     real(wp), intent(in) :: crank
     logical :: is
 
-    type(pose_t) :: pose
-    type(error_t), allocatable :: error
+    real(wp) :: sine(size(linkage%groups))
 
-    call place_links(linkage, crank, pose, error)
-    is = .not. allocated(error)
+    call find_sines(linkage, crank, sine, is)
   end function is_closed
 
   !> Whether the linkage closes, and no group is at its limit but for rounding.
@@ -255,11 +259,14 @@ contains
     integer, intent(out) :: group       !! that would jump at `last`; 0: none
     logical, intent(out) :: is_open     !! no end has been found
 
-    real(wp) :: place
+    real(wp) :: place, sine(size(linkage%groups), 3)
+    logical :: closes, has_two, found
     integer :: i
 
     is_open = .false.
     last = inside
+    call find_sines(linkage, inside - step, sine(:, 1), has_two)
+    call find_sines(linkage, inside, sine(:, 2))
     do i = 1, samples*merge(turns_searched, lengths_searched, is_angle)
       beyond = last + step
       call find_jump(linkage, last, beyond, group, place)
@@ -267,7 +274,20 @@ contains
         last = place
         return
       end if
-      if (.not. is_closed(linkage, beyond)) return
+      call find_sines(linkage, beyond, sine(:, 3), closes)
+      if (.not. closes) return
+      if (has_two) then
+        call find_gap(linkage, [last - step, last, beyond], sine, found, place)
+        ! One behind the first place is not on the way.
+        found = found .and. (i > 1 .or. (place - last)*step > 0.0_wp)
+        if (found) then
+          if ((place - last)*step <= 0.0_wp) last = last - step
+          beyond = place
+          return
+        end if
+      end if
+      sine(:, :2) = sine(:, 2:)
+      has_two = .true.
       last = beyond
     end do
     do i = 1, merge(0, most_doublings, is_angle)

@@ -2,25 +2,14 @@
 module dead_points
   use bridges, only: bridge_at, change_point_t, change_points_of, place_on_path
   use crank_limits, only: crank_range_t
-  use errors, only: error_t
   use kinds, only: wp
   use linkage_paths, only: has_change_points
   use linkages, only: linkage_t
-  use pose_types, only: pose_t
-  use poses, only: dead_point_sine, place_links
+  use low_points, only: find_sines, low_point_t, lowest_point
   implicit none (type, external)
   private
 
-  public :: low_point_t, find_low_points
-
-  !> A minimum of the scaled determinant |σ| of a group, as in `pose_t`.
-  type :: low_point_t
-    integer :: group = 0
-    real(wp) :: crank = 0.0_wp     !! coordinate of the first drive [deg] or [m]
-    real(wp) :: sine = 0.0_wp      !! |σ| there [-]
-    logical :: is_dead = .false.   !! positions there are refused
-    logical :: is_change = .false. !! the linkage goes smoothly through
-  end type low_point_t
+  public :: find_low_points
 
 contains
 
@@ -48,7 +37,7 @@ contains
       points = [points, low_point_t(changes(i)%group, changes(i)%crank, is_change=.true.)]
     end do
     do i = 0, samples
-      sine(:, i) = sines_at(linkage, crank_at(range, real(i, wp)))
+      call find_sines(linkage, crank_at(range, real(i, wp)), sine(:, i))
     end do
     ! Beyond the ends a range that turns begins again.
     sine(:, -1) = -1.0_wp
@@ -103,82 +92,5 @@ contains
 
     crank = range%from + (range%to - range%from)*number/range%samples
   end function crank_at
-
-  !> |σ| of all groups; 0 where the links cannot be placed.
-  pure function sines_at(linkage, crank) result(sines)
-    type(linkage_t), intent(in) :: linkage
-    real(wp), intent(in) :: crank
-    real(wp) :: sines(size(linkage%groups))
-
-    type(pose_t) :: pose
-    type(error_t), allocatable :: error
-
-    sines = 0.0_wp
-    call place_links(linkage, crank, pose, error)
-    if (.not. allocated(error)) sines = abs(pose%sine)
-  end function sines_at
-
-  !> The minimum of |σ| of a group between two coordinates, by golden-section search.
-  pure function lowest_point(linkage, group, from, to) result(point)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: group
-    real(wp), intent(in) :: from, to
-    type(low_point_t) :: point
-
-    real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
-    real(wp) :: a, b, x(2), y(2)
-
-    a = from
-    b = to
-    x = [b - golden*(b - a), a + golden*(b - a)]
-    y = [sine_of(x(1)), sine_of(x(2))]
-    do while (b - a > max(1.0e-11_wp*(to - from), 4.0_wp*spacing(max(abs(a), abs(b)))))
-      if (y(1) <= y(2)) then
-        b = x(2)
-        x = [b - golden*(b - a), x(1)]
-        y = [sine_of(x(1)), y(1)]
-      else
-        a = x(1)
-        x = [x(2), a + golden*(b - a)]
-        y = [y(2), sine_of(x(2))]
-      end if
-    end do
-    point = low_point_t(group, x(minloc(y, dim=1)), minval(y), minval(y) < dead_point_sine)
-    ! At a dead point σ is zero over some way, by rounding: its middle is sharper than its lowest.
-    if (point%is_dead) point%crank = 0.5_wp*(edge(point%crank, from) + edge(point%crank, to))
-
-  contains
-
-    !> Where positions begin to be accepted, from a refused one towards another one.
-    pure function edge(refused, accepted) result(middle)
-      real(wp), intent(in) :: refused, accepted
-      real(wp) :: middle
-
-      real(wp) :: inner, outer
-      integer :: i
-
-      inner = refused
-      outer = accepted
-      do i = 1, 60
-        middle = 0.5_wp*(inner + outer)
-        if (sine_of(middle) < dead_point_sine) then
-          inner = middle
-        else
-          outer = middle
-        end if
-      end do
-    end function edge
-
-    pure function sine_of(crank) result(sine)
-      real(wp), intent(in) :: crank
-      real(wp) :: sine
-
-      real(wp) :: sines(size(linkage%groups))
-
-      sines = sines_at(linkage, crank)
-      sine = sines(group)
-    end function sine_of
-
-  end function lowest_point
 
 end module dead_points

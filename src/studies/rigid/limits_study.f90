@@ -6,11 +6,12 @@ module limits_study
   use crank_extremes, only: angle_of_body, extremes_t, find_extremes, place_of_slider, &
     pressure_of_lever, pressure_of_slider, quantity_t, transmission_of_dyad, transmission_of_lines
   use crank_limits, only: crank_range_t, find_ranges, find_ranges_of_deck
-  use dead_points, only: find_low_points, low_point_t
+  use dead_points, only: find_low_points
   use four_bar_loops, only: four_bar_t
   use group_equations, only: drive_value, line_offset
   use kinds, only: wp
   use linkage_paths, only: has_iterations, leave_path
+  use low_points, only: low_point_t
   use linkages, only: drive_of_angle, group_by_newton, group_cross_slide, group_driven_dyad, &
     group_dyad, group_on_line, group_through_pin, group_two_lines, linkage_t, mobility
   use sorting, only: ascending_order
