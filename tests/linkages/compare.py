@@ -111,7 +111,7 @@ def long_tables(deck, tables):
             reactions += [{**place, "pin": pin, "link": link, "fx": row[name + "x"], "fy": row[name + "y"], "moment": None}
                           for name, (pin, link) in ends.items()]
             drives.append({**place, "drive": crank, "position": row["crank"], "rate": row["speed"], "force": row["torque"]})
-        result.update(reactions=Rows(reactions, tables["reactions"].failed), drive=Rows(drives, []))
+        result.update(reactions=Rows(reactions, tables["reactions"].failed), drives=Rows(drives, []))
     return result
 
 

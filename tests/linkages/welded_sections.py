@@ -20,7 +20,7 @@ TABLES = {
     "pins": (["crank"], ["pin"], ["x", "y", "vx", "vy", "ax", "ay"], ""),
     "reactions": (["speed", "crank"], ["pin", "link"], ["fx", "fy"], ""),
     "bearings": (["speed", "crank"], ["pin", "link"], ["fx", "fy", "magnitude"], ""),
-    "drive": (["speed", "crank"], ["drive"], ["force", "torque"], ""),
+    "drives": (["speed", "crank"], ["drive"], ["force", "torque"], ""),
     "frame": (["speed", "crank"], [], ["shaking_x", "shaking_y", "shaking_moment", "frame_x", "frame_y", "frame_moment"], ""),
     "lagrange": (["speed", "crank"], [], ["M", "dM", "V", "gravity", "torque", "kinetic"], ""),
     "sizing": (["speed", "quantity"], ["part", "pin"], ["value"], "error"),
@@ -119,8 +119,6 @@ def compare(folders, name, last):
         both = []
         for folder, divided in zip(folders, (False, True)):
             found = {}
-            if not (folder / f"{table}.dat").exists():
-                break
             for row in rows(folder / f"{table}.dat"):
                 if row.get("quantity") == "angle_at_peak":
                     continue                            # as exact as the place of the peak
@@ -128,8 +126,6 @@ def compare(folders, name, last):
                 if key is not None:
                     found[key] = row
             both.append(found)
-        if len(both) < 2:
-            continue
         if set(both[0]) != set(both[1]):
             said.append(f"{table}: other rows: {sorted(set(both[0]) ^ set(both[1]))[:2]}")
             continue

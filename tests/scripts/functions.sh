@@ -1,6 +1,6 @@
 # Read in by the scripts of this folder, which check.py runs as: script PROGRAM SCRATCH, in the repository's root.
 program=$1
-scratch=$2
+scratch=${2:?a folder for files}
 
 # Seconds; a command that takes longer hangs, on a busy machine too.
 longest=3000
