@@ -398,6 +398,10 @@ contains
         totals%rows
       call add_totals(session%totals, totals)
       call find_failures(run%results, findings)
+      if (.not. allocated(run%blocks)) cycle
+      associate (all => size(run%blocks%first_alike))
+        call show_progress(run%progress, min(block*run%blocks%kept, all), all)
+      end associate
     end do
     if (variant_count(deck%cards) == 1) session%progress = run%progress
     call end_results(session%outputs, error)
