@@ -90,6 +90,7 @@ contains
     type(study_t), allocatable :: studies(:)
     integer :: i
 
+    if (was_interrupted()) return
     if (block_count(run) > 1) call place_block(run, number)
     call name_positions(run%results)
     if (run%results%mechanism%is_four_bar) call explain_positions(run%results)
@@ -127,11 +128,11 @@ contains
     associate (found => run%results%found, mechanism => run%results%mechanism)
       has_gaps = report_number(run%results%model, "linkage") > 0
       do i = 1, block_count(run)
-        if (was_interrupted()) return
         call place_block(run, i)
         if (.not. has_gaps) has_gaps = is_out_of_reach(found%positions)
         if (allocated(mechanism%four_bar)) call widen_transmission_range(mechanism%linkage, &
           mechanism%four_bar, found%positions, found%transmission)
+        if (was_interrupted()) return
       end do
       if (mechanism%is_four_bar) call classify_linkage(mechanism%four_bar, found%class)
       if (allocated(run%blocks)) then
