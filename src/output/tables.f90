@@ -112,20 +112,24 @@ contains
   end subroutine open_later_rows
 
   !> Appends such rows, and removes their files. Errors: not everything was taken.
-  subroutine append_later_rows(table, folder, later, error)
+  subroutine append_later_rows(table, folder, place, later, error)
     type(table_file_t), intent(inout) :: table       !! with the rows before
     character(len=*), intent(in) :: folder           !! with the files of the later rows
+    character(len=*), intent(in) :: place            !! where the table will be, for a message
     type(table_file_t), intent(inout) :: later       !! open before, removed after
     type(error_t), allocatable, intent(out) :: error !! allocated if a file is incomplete
 
+    character(len=:), allocatable :: path
     logical :: gap_due
 
+    path = joined_path(folder, later%name)
     gap_due = later%gap_due
     later%gap_due = .false.
-    call finish_table(later, folder, error)
+    later%name = table%name
+    call finish_table(later, place, error)
     if (allocated(error)) return
-    if (table%has_plain) call append_file(table%plain, joined_path(folder, later%name//".dat"))
-    if (table%has_csv) call append_file(table%csv, joined_path(folder, later%name//".csv"))
+    if (table%has_plain) call append_file(table%plain, path//".dat")
+    if (table%has_csv) call append_file(table%csv, path//".csv")
     table%gap_due = gap_due
     table%rows = table%rows + later%rows
     table%failed_rows = table%failed_rows + later%failed_rows

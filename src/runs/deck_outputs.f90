@@ -190,7 +190,8 @@ contains
       do i = 1, size(outputs%tables)
         do k = 1, size(outputs%later, 1)
           if (.not. allocated(outputs%later(k, i)%name)) cycle
-          call append_later_rows(outputs%tables(i), outputs%folder%own, outputs%later(k, i), error)
+          call append_later_rows(outputs%tables(i), outputs%folder%own, outputs%folder%path, &
+            outputs%later(k, i), error)
           if (allocated(error)) return
         end do
       end do
