@@ -60,7 +60,7 @@ contains
 
     stream = c_fopen(path//c_null_char, "r"//c_null_char)
     if (.not. c_associated(stream)) then
-      if (.not. allocated(file%reason)) file%reason = system_reason()
+      call keep_reason(file)
       return
     end if
     do
@@ -68,8 +68,7 @@ contains
       call append_output(file, piece(:length))
       if (length < len(piece)) exit
     end do
-    if (c_ferror(stream) /= 0_c_int .and. .not. allocated(file%reason)) &
-      file%reason = system_reason()
+    if (c_ferror(stream) /= 0_c_int) call keep_reason(file)
     if (c_fclose(stream) == 0_c_int) call remove_file(path)
   end subroutine append_file
 
@@ -123,7 +122,14 @@ contains
     if (.not. c_associated(file%stream)) return
     status = c_fclose(file%stream)
     file%stream = c_null_ptr
-    if (status /= 0_c_int .and. .not. allocated(file%reason)) file%reason = system_reason()
+    if (status /= 0_c_int) call keep_reason(file)
   end subroutine close_output
+
+  !> The first reason counts.
+  subroutine keep_reason(file)
+    type(output_file_t), intent(inout) :: file
+
+    if (.not. allocated(file%reason)) file%reason = system_reason()
+  end subroutine keep_reason
 
 end module output_files

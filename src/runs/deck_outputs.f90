@@ -22,7 +22,7 @@ module deck_outputs
   implicit none (type, external)
   private
 
-  public :: outputs_t, open_outputs, open_part, begin_results, write_results, end_results, &
+  public :: outputs_t, open_outputs, open_part, write_results, end_results, &
     write_found_rows, write_texts, publish_outputs, close_outputs, discard_outputs, forget_waiting
 
   !> The files of one output folder.
@@ -116,46 +116,30 @@ contains
       error)
   end subroutine open_part
 
-  !> Begins the rows of a variant in all tables.
-  subroutine begin_results(outputs, variant)
-    type(outputs_t), intent(inout) :: outputs      !! opened
-    type(variant_results_t), intent(in) :: variant !! computed, or its first block
-
-    type(table_plan_t) :: plan
-    type(string_t), allocatable :: notes(:)
-    type(column_t), allocatable :: columns(:)
-    integer :: i
-
-    outputs%before = rows_written(outputs)
-    do i = 1, size(outputs%kinds)
-      call plan_table(outputs%kinds(i)%table, variant, plan)
-      call plan%table%find_notes(variant, notes)
-      call header_columns(plan%layout, columns)
-      call begin_rows(outputs, outputs%tables(i), variant%model%title, notes, columns, &
-        variant%model%varied)
-    end do
-  end subroutine begin_results
-
-  !> Writes the rows of a variant, or of a block of its positions, to all tables. Speeds after the
-  !! first wait in files of their own for the blocks that follow. Errors: there are no such files.
+  !> Writes the rows of a variant, or of a block of its positions, to all tables; the first block
+  !! begins them. Speeds after the first wait in files of their own for the blocks that follow.
+  !! Errors: there are no such files.
   subroutine write_results(outputs, variant, threads, is_block, error)
-    type(outputs_t), intent(inout) :: outputs      !! with the rows before
+    type(outputs_t), intent(inout) :: outputs      !! opened, with the blocks before
     type(variant_results_t), intent(in) :: variant !! computed
     integer, intent(in) :: threads                 !! number to use
     logical, intent(in) :: is_block                !! all tables are of positions
     type(error_t), allocatable, intent(out) :: error
 
     type(table_plan_t) :: plan
+    logical :: begins
     integer :: i, k, speeds, items
 
-    if (is_block .and. .not. allocated(outputs%later)) allocate (outputs%later(max(0, &
-      size(variant%model%speed%value) - 1), size(outputs%tables)))
+    begins = variant%found%positions%before == 0
+    if (begins) outputs%before = rows_written(outputs)
+    if (begins .and. is_block) allocate (outputs%later(max(0, size(variant%model%speed%value) - &
+      1), size(outputs%tables)))
     do i = 1, size(outputs%kinds)
       call plan_table(outputs%kinds(i)%table, variant, plan)
       items = plan%items
       if (is_block) items = size(variant%found%positions%crank)
       speeds = plan%items/max(1, items)
-      if (variant%found%positions%before == 0) call open_later(i, speeds)
+      if (begins) call begin_planned(i, speeds)
       if (allocated(error)) return
       call write_items(outputs%tables(i), plan, variant, 0, items, threads)
       do k = 2, speeds
@@ -165,17 +149,24 @@ contains
 
   contains
 
-    subroutine open_later(table, speeds)
+    !> Begins the rows of the table that is planned, those of later speeds, too.
+    subroutine begin_planned(table, speeds)
       integer, intent(in) :: table, speeds !! number, count
 
+      type(string_t), allocatable :: notes(:)
+      type(column_t), allocatable :: columns(:)
       integer :: k
 
+      call plan%table%find_notes(variant, notes)
+      call header_columns(plan%layout, columns)
+      call begin_rows(outputs, outputs%tables(table), variant%model%title, notes, columns, &
+        variant%model%varied)
       do k = 2, speeds
         if (allocated(error)) return
         call open_later_rows(outputs%tables(table), outputs%folder%own, k, outputs%later(k - 1, &
           table), error)
       end do
-    end subroutine open_later
+    end subroutine begin_planned
 
   end subroutine write_results
 

@@ -4,7 +4,7 @@ module deck_runs
   use byte_streams, only: byte_stream_t
   use cards, only: card_t
   use deck_bytes, only: pass_deck
-  use deck_outputs, only: begin_results, close_outputs, discard_outputs, end_results, &
+  use deck_outputs, only: close_outputs, discard_outputs, end_results, &
     open_outputs, open_part, outputs_t, publish_outputs, write_found_rows, write_results, &
     write_texts
   use deck_readings, only: deck_t
@@ -386,7 +386,6 @@ contains
         call move_alloc(failure, error)
         return
       end if
-      if (block == 1) call begin_results(session%outputs, run%results)
       call write_results(session%outputs, run%results, threads, block_count(run) > 1, error)
       if (allocated(error)) return
       call lap(watch, writing)

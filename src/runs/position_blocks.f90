@@ -6,8 +6,8 @@ module position_blocks
   use linkages, only: linkage_t
   use load_tables, only: load_period
   use models, only: has_law, model_t
-  use position_study, only: find_all_positions
-  use positions, only: find_first_alike, list_block, positions_t
+  use position_study, only: place_positions
+  use positions, only: find_first_alike, list_block, list_positions, positions_t
   implicit none (type, external)
   private
 
@@ -36,7 +36,8 @@ contains
     integer, intent(in) :: threads         !! number to use
     type(position_blocks_t), allocatable, intent(out) :: blocks !! not allocated: all are one block
 
-    integer, allocatable :: different(:), chosen(:)
+    integer, allocatable :: numbers(:), different(:), chosen(:)
+    real(wp) :: period
     integer :: i
 
     associate (crank => model%crank%value)
@@ -45,18 +46,19 @@ contains
       blocks%kept = kept
       blocks%count = (size(crank) + kept - 1)/kept
       blocks%model = model
-      blocks%first_alike = find_first_alike(crank, load_period(linkage, period_of(linkage)), &
-        has_law(model))
-      different = pack([(i, i=1, size(crank))], blocks%first_alike == [(i, i=1, size(crank))])
+      period = load_period(linkage, period_of(linkage))
+      blocks%first_alike = find_first_alike(crank, period, has_law(model))
+      numbers = [(i, i=1, size(crank))]
+      different = pack(numbers, blocks%first_alike == numbers)
       chosen = [(1 + int((i*(size(different) - 1.0_wp))/(sample_size - 1)), i=0, sample_size - 1)]
-      call find_all_positions(linkage, crank(different(chosen)), threads, blocks%sample)
+      call list_positions(crank(different(chosen)), blocks%sample, period)
+      call place_positions(linkage, threads, blocks%sample)
     end associate
   end subroutine divide_positions
 
   !> Leaves a model the positions of a block.
-  subroutine choose_block(blocks, linkage, number, model, positions)
+  subroutine choose_block(blocks, number, model, positions)
     type(position_blocks_t), intent(in) :: blocks
-    type(linkage_t), intent(in) :: linkage       !! of the model
     integer, intent(in) :: number                !! of the block, from 1
     type(model_t), intent(inout) :: model        !! the one that was divided, with any block
     type(positions_t), intent(out) :: positions  !! listed, without poses
@@ -71,7 +73,7 @@ contains
         model%time%value = whole%time%value(before + 1:last)
         model%law_rates = whole%law_rates(:, before + 1:last)
       end if
-      positions%period = load_period(linkage, period_of(linkage))
+      positions%period = blocks%sample%period
       call list_block(whole%crank%value, blocks%first_alike, before, last, positions)
     end associate
   end subroutine choose_block

@@ -135,25 +135,13 @@ contains
         if (was_interrupted()) return
       end do
       if (mechanism%is_four_bar) call classify_linkage(mechanism%four_bar, found%class)
-      if (allocated(run%blocks)) then
-        call find_home(run%blocks%model)
-      else
-        call find_home(run%results%model)
-      end if
-    end associate
-
-  contains
-
-    subroutine find_home(model)
-      type(model_t), intent(in) :: model !! with all positions
-
-      associate (found => run%results%found, linkage => run%results%mechanism%linkage)
+      if (allocated(run%blocks)) run%results%model = run%blocks%model
+      associate (model => run%results%model)
         if (found%class%closes .and. .not. (model%is_structure .or. has_law(model))) &
-          call find_home_range(linkage, starting_cranks(model, linkage), model%crank%value, &
-          has_gaps, found%home)
+          call find_home_range(mechanism%linkage, starting_cranks(model, mechanism%linkage), &
+          model%crank%value, has_gaps, found%home)
       end associate
-    end subroutine find_home
-
+    end associate
   end subroutine survey_positions
 
   !> The positions of a block that the reports need.
@@ -166,7 +154,7 @@ contains
     associate (variant => run%results, model => run%results%model, &
         linkage => run%results%mechanism%linkage)
       if (allocated(run%blocks)) then
-        call choose_block(run%blocks, linkage, number, variant%model, variant%found%positions)
+        call choose_block(run%blocks, number, variant%model, variant%found%positions)
         call place_positions(linkage, run%threads, variant%found%positions)
       else if (needs_positions(model)) then
         call find_all_positions(linkage, model%crank%value, run%threads, &

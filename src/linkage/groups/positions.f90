@@ -96,24 +96,24 @@ contains
     integer, intent(in) :: before, last   !! positions before the block, number of its last one
     type(positions_t), intent(inout) :: positions !! new; on return with states yet to be found
 
-    integer :: number(last - before), i, states
+    integer :: i, states
 
     positions%before = before
     positions%crank = crank(before + 1:last)
     positions%repeated = count(first_alike(before + 1:last) <= before)
+    allocate (positions%state(last - before))
     states = 0
     do i = before + 1, last
       if (first_alike(i) > before .and. first_alike(i) < i) then
-        number(i - before) = number(first_alike(i) - before)
+        positions%state(i - before) = positions%state(first_alike(i) - before)
       else
         states = states + 1
-        number(i - before) = states
+        positions%state(i - before) = states
       end if
     end do
-    positions%state = number
     allocate (positions%states(states))
-    do i = before + 1, last
-      positions%states(number(i - before))%crank = crank(first_alike(i))
+    do i = 1, size(positions%state)
+      positions%states(positions%state(i))%crank = crank(first_alike(before + i))
     end do
   end subroutine list_block
 

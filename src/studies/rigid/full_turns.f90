@@ -51,7 +51,7 @@ contains
       if (.not. turns) return
       call find_moving_pose(linkage, cranks(i), pose, error)
       turns = .not. allocated(error)
-      if (turns) sine(:, i) = abs(pose%sine)
+      if (turns) sine(:, i) = pose%sine
       if (allocated(four_bar) .or. i < 3 .or. .not. turns) cycle
       call find_gap(linkage, cranks(i - 2:i), sine(:, i - 2:i), has_gap, place)
       turns = .not. has_gap
