@@ -5,8 +5,8 @@ module pose_types
   implicit none (type, external)
   private
 
-  public :: pose_t, kinematic_coefficients_t, drawn_pose, pose_of_pins, arm_to_pin, pins_of_body, &
-    place_of_pin, way_length
+  public :: pose_t, kinematic_coefficients_t, drawn_pose, pose_of_pins, count_from, arm_to_pin, &
+    pins_of_body, place_of_pin, way_length
 
   !> First and second derivatives with respect to the crank angle θ2.
   type :: kinematic_coefficients_t
@@ -20,6 +20,7 @@ module pose_types
   type :: pose_t
     real(wp) :: crank = 0.0_wp               !! coordinate of the first drive, with all whole turns
                                              !! [deg] or [m]
+    real(wp) :: origin(2) = 0.0_wp           !! from which its pins are counted, in global axes [m]
     real(wp), allocatable :: pin(:, :)       !! (2, pins) positions [m]
     real(wp), allocatable :: direction(:, :) !! (2, bodies) unit vectors, first → last pin
     real(wp), allocatable :: sine(:)         !! (groups) of a dyad: of the angle from base 1 →
@@ -38,7 +39,18 @@ contains
     type(pose_t) :: pose                   !! without `sine`
 
     pose = pose_of_pins(linkage, linkage%drawing%pin - spread(origin, 2, size(linkage%is_ground)))
+    pose%origin = origin
   end function drawn_pose
+
+  !> Counts the pins of a pose from another place: the global origin, or `reference_point`, so that
+  !! a far-off origin of the drawing costs no digits.
+  pure subroutine count_from(origin, pose)
+    real(wp), intent(in) :: origin(2)   !! in global axes [m]
+    type(pose_t), intent(inout) :: pose !! with its pins
+
+    pose%pin = pose%pin + spread(pose%origin - origin, 2, size(pose%pin, 2))
+    pose%origin = origin
+  end subroutine count_from
 
   !> The pose with pins at given places; bodies whose pins coincide lie along the global x axis.
   pure function pose_of_pins(linkage, pin) result(pose)

@@ -53,7 +53,7 @@ contains
     if (model%is_structure) return
     ! The drive is off by the coordinate that is sought.
     pose = drawn_pose(linkage, [0.0_wp, 0.0_wp])
-    crank = misfit_of(linkage, equation_t(demand_drive, number=1), pose, [0.0_wp, 0.0_wp], 0.0_wp)
+    crank = misfit_of(linkage, equation_t(demand_drive, number=1), pose, 0.0_wp)
     if (linkage%drives(1)%kind /= drive_of_angle) return
     crank = crank/degree
     nearest = 0
@@ -113,8 +113,7 @@ contains
     misfit = 0.0_wp
     do i = 2, size(linkage%drives)
       if (.not. abs(linkage%drives(i)%ratio) > 0.0_wp) cycle
-      one = abs(misfit_of(linkage, equation_t(demand_drive, number=i), drawn, [0.0_wp, 0.0_wp], &
-        crank))
+      one = abs(misfit_of(linkage, equation_t(demand_drive, number=i), drawn, crank))
       if (linkage%drives(i)%kind /= drive_of_angle) one = one/maxval(linkage%bodies%length)
       misfit = misfit + one
     end do

@@ -302,7 +302,7 @@ contains
         return
       end if
       now = velocities_at(coefficients, speed)
-      call add_moving_loads(linkage, at%pose, [0.0_wp, 0.0_wp], now, body_load, pin_load)
+      call add_moving_loads(linkage, at%pose, now, body_load, pin_load)
       joints = find_joint_forces(linkage, at%pose, body_load, pin_load)
       loads = no_part_loads(at%here%elastic)
       call add_moving_efforts(linkage, at%pose, now, at%here%elastic, at%here%pose, loads)

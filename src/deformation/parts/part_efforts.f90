@@ -62,7 +62,6 @@ contains
     type(pose_t), intent(in) :: placed              !! its points and parts
     type(part_loads_t), intent(inout) :: loads      !! of these parts
 
-    real(wp), parameter :: from_global_origin(2) = 0.0_wp
     real(wp), allocatable :: pull(:)
     integer :: i, k
 
@@ -72,11 +71,11 @@ contains
         if (.not. is_moving(load)) cycle
         select case (load%kind)
         case (applies_force)
-          call add_force(elastic, placed, i, load%at(1), moving_force(linkage, pose, &
-            from_global_origin, now, load), loads)
+          call add_force(elastic, placed, i, load%at(1), moving_force(linkage, pose, now, &
+            load), loads)
         case (applies_couple)
-          call add_couple(elastic, load%body(1), moving_couple(linkage, pose, from_global_origin, &
-            now, load), loads%unit%of_case(effort_case)%couple)
+          call add_couple(elastic, load%body(1), moving_couple(linkage, pose, now, load), &
+            loads%unit%of_case(effort_case)%couple)
         case (applies_along)
           call add_force(elastic, placed, i, load%at(1), pull(i)*load_axis(linkage, pose, load), &
             loads)

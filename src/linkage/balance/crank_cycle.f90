@@ -87,7 +87,7 @@ contains
         unit%of_case(i)%joints%torque]
     end do
     if (allocated(linkage%shafts)) part = part + parts_of_shafts(linkage, crank)
-    call refuse_beyond_tables(linkage, pose, [0.0_wp, 0.0_wp], error)
+    call refuse_beyond_tables(linkage, pose, error)
     if (allocated(error) .or. .not. depends_on_speed(linkage)) return
     do i = 1, size(speed)
       call find_running_loads(linkage, pose, coefficients, speed(i), acceleration, unit, loads)

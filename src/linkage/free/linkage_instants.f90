@@ -141,7 +141,7 @@ contains
 
     found = .true.
     pin_load = 0.0_wp
-    associate (linkage => whole%linkage, origin => whole%origin, pose => instant%pose, &
+    associate (linkage => whole%linkage, pose => instant%pose, &
         per => instant%per, now => instant%motion, right => instant%all_right, &
         driving => instant%driving, loading => instant%loading)
       do k = 1, size(per)
@@ -152,8 +152,8 @@ contains
       if (size(linkage%loads) > 0 .or. has_friction(linkage)) then
         spring_force = 0.0_wp
         call add_conservative_loads(linkage, pose, of_springs, spring_force)
-        call add_prescribed_loads(linkage, pose, origin, body_load, pin_load)
-        call add_moving_loads(linkage, pose, origin, now, body_load, pin_load)
+        call add_prescribed_loads(linkage, pose, body_load, pin_load)
+        call add_moving_loads(linkage, pose, now, body_load, pin_load)
         do k = 1, size(per)
           right(k) = right(k) + generalised_force(linkage, per(k), of_springs, spring_force)
           added(k) = generalised_force(linkage, per(k), body_load, pin_load)

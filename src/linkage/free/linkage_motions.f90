@@ -25,12 +25,12 @@ module linkage_motions
     stop_at_end, stop_change_point, stop_energy, stop_many_steps, stop_misfit, stop_no_inertia, &
     stop_steps
   use linkage_samples, only: find_details, linkage_details_t, linkage_sample_t, sample_state
-  use linkages, only: drive_of_angle, linkage_t
+  use linkages, only: drive_of_angle, linkage_t, reference_point
   use loop_curves, only: change_point_message, choose_branch, curve_point_t, find_point, &
     find_start, new_loop_curve, place_from_crossing, project, reduce
   use loop_poses, only: has_loop
   use motion_charts, only: is_same_side, motion_chart_t, new_chart
-  use pose_types, only: pose_t
+  use pose_types, only: count_from, pose_t
   use poses, only: dead_point_sine, place_links
   use redundancies, only: refuse_misfit
   use rigid_bodies, only: rigid_body_t
@@ -151,7 +151,7 @@ contains
           " turns back and can have no speed; expected speed=0")
         return
       end if
-      pose%pin = pose%pin - spread(system%whole%origin, 2, size(pose%pin, 2))
+      call count_from(reference_point(linkage), pose)
       system%period = period_of(linkage)
       system%pose = pose
       if (.not. allocated(system%loop)) then
@@ -547,7 +547,7 @@ contains
 
     associate (system => motion%system)
       system%chart = chart
-      call refuse_misfit(system%whole%linkage, chart%pose, system%whole%origin, chart%crank, error)
+      call refuse_misfit(system%whole%linkage, chart%pose, chart%crank, error)
       if (allocated(error)) motion%stop = stop_misfit
       call set_rates(motion, now)
       if (tolerance_of(motion) > 2.0_wp*motion%tolerance .or. tolerance_of(motion) < &

@@ -21,13 +21,13 @@ module linkage_rates
     kinematic_coefficients_t
   use linkage_instants, only: add_accelerations, add_loads, find_inertia, linkage_instant_t, &
     make_room
-  use linkages, only: drive_of_angle, linkage_t
+  use linkages, only: drive_of_angle, linkage_t, reference_point
   use load_tables, only: refuse_beyond_tables
   use loop_curves, only: curve_point_t, find_point, loop_curve_t
   use loop_poses, only: place_on_curve
   use motion_charts, only: accelerations, find_on_chart, motion_chart_t, velocities
   use motion_switches, only: has_switches, switches_at
-  use pose_types, only: pose_t
+  use pose_types, only: count_from, pose_t
   use poses, only: dead_point_sine, place_groups, place_links
   use rigid_bodies, only: rigid_body_t
   use whole_systems, only: drive_acceleration, drive_position, drive_row, rate_along, whole_system_t
@@ -126,10 +126,10 @@ contains
       if (present(is_crossing)) is_crossing = .not. found
       if (.not. found) return
       if (.not. allocated(per)) allocate (per(1))
-      call place_on_curve(self%whole%linkage, self%loop%four_bar, self%whole%origin, point, &
-        state(1) + two_pi*self%turns(1), state(4), pose, per(1), now)
+      call place_on_curve(self%whole%linkage, self%loop%four_bar, point, state(1) + &
+        two_pi*self%turns(1), state(4), pose, per(1), now)
       if (size(self%whole%linkage%loads) > 0) call refuse_beyond_tables(self%whole%linkage, pose, &
-        self%whole%origin, error)
+        error)
       found = .not. allocated(error)
       if (present(left)) call move_alloc(error, left)
       return
@@ -141,8 +141,7 @@ contains
       if (.not. found) return
       pose%crank = drive_position(self%whole, pose, 1, self%chart%crank)
       call refuse_leaving_block(self%whole%linkage, pose, error)
-      if (.not. allocated(error)) call refuse_beyond_tables(self%whole%linkage, pose, &
-        self%whole%origin, error)
+      if (.not. allocated(error)) call refuse_beyond_tables(self%whole%linkage, pose, error)
       found = .not. allocated(error)
       if (present(left)) call move_alloc(error, left)
       if (.not. found) return
@@ -159,7 +158,7 @@ contains
     pose%crank = state(1)
     if (self%whole%linkage%drives(1)%kind == drive_of_angle) pose%crank = state(1)/degree + &
       self%turned
-    call refuse_beyond_tables(self%whole%linkage, pose, self%whole%origin, error)
+    call refuse_beyond_tables(self%whole%linkage, pose, error)
     found = .not. allocated(error)
     if (present(left) .and. .not. found) call move_alloc(error, left)
     if (.not. found) return
@@ -201,8 +200,7 @@ contains
     end if
     if (size(self%free) == 1) then
       call place_links(self%whole%linkage, crank, pose, error)
-      if (.not. allocated(error)) pose%pin = pose%pin - spread(self%whole%origin, 2, &
-        size(pose%pin, 2))
+      if (.not. allocated(error)) call count_from(reference_point(self%whole%linkage), pose)
     else
       linkage = self%whole%linkage
       do i = 2, size(self%free)

@@ -13,7 +13,7 @@ module linkage_samples
   use linkage_rates, only: find_instant, find_state, moving_linkage_t, rate_of_drive
   use linkages, only: drive_of_angle
   use loop_curves, only: closure_error
-  use pose_types, only: pose_t
+  use pose_types, only: count_from, pose_t
   use poses, only: dead_point_sine
   use rigid_bodies, only: central_inertia, mass_centre
   use whole_systems, only: drive_acceleration
@@ -81,7 +81,7 @@ contains
     logical :: found
     integer :: b, k, p
 
-    associate (linkage => system%whole%linkage, origin => system%whole%origin)
+    associate (linkage => system%whole%linkage)
       call find_state(system, state, pose, per, now, found)
       sample%time = time
       sample%position = position
@@ -105,17 +105,17 @@ contains
           sample%kinetic = sample%kinetic + 0.5_wp*(rigid%mass*sum(point%rate**2) + &
             central_inertia(rigid)*now%turn(b)**2)
           sample%potential = sample%potential - rigid%mass*dot_product(linkage%gravity, &
-            point%place + origin)
+            point%place + pose%origin)
         end associate
       end do
-      sample%pin = pose%pin + spread(origin, 2, size(pose%pin, 2))
+      sample%pin = pose%pin + spread(pose%origin, 2, size(pose%pin, 2))
       do p = 1, size(linkage%is_ground)
         sample%kinetic = sample%kinetic + 0.5_wp*linkage%pin_mass(p)*sum(now%pin(:, p)**2)
         sample%potential = sample%potential - dot_product(linkage%pin_mass(p)*linkage%gravity + &
           linkage%pin_force(:, p), sample%pin(:, p))
       end do
-      if (size(linkage%loads) > 0) sample%potential = sample%potential + applied_potential( &
-        linkage, pose, origin)
+      if (size(linkage%loads) > 0) sample%potential = sample%potential + applied_potential(linkage, &
+        pose)
     end associate
   end subroutine sample_state
 
@@ -190,7 +190,7 @@ contains
       details%direction = pose%direction
       details%turning = motion%turn_slope
       details%pose = pose
-      details%pose%pin = pose%pin + spread(whole%origin, 2, size(pose%pin, 2))
+      call count_from([0.0_wp, 0.0_wp], details%pose)
       details%motion = motion
       if (.not. with_forces) return
       ! At a change point itself they are not determined; charts have no such places.

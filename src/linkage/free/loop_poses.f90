@@ -4,7 +4,7 @@ module loop_poses
   use four_bar_loops, only: find_four_bar, four_bar_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: linkage_t, normal_to, turned
+  use linkages, only: linkage_t, normal_to, reference_point, turned
   use loop_curves, only: curve_point_t
   use pose_types, only: pose_t
   implicit none (type, external)
@@ -28,10 +28,9 @@ contains
 
   !> Positions and directions at a point of the curve, velocities per rate of its length s,
   !! velocities, and accelerations while this rate does not change.
-  pure subroutine place_on_curve(linkage, four_bar, origin, point, crank, rate, pose, per, now)
+  pure subroutine place_on_curve(linkage, four_bar, point, crank, rate, pose, per, now)
     type(linkage_t), intent(in) :: linkage    !! of which `has_loop` is true
     type(four_bar_t), intent(in) :: four_bar  !! that it is
-    real(wp), intent(in) :: origin(2)         !! from which pins are counted [m]
     type(curve_point_t), intent(in) :: point  !! its directions, tangent and curvature
     real(wp), intent(in) :: crank             !! angle of the crank, with all whole turns [rad]
     real(wp), intent(in) :: rate              !! ṡ [rad/s]
@@ -43,7 +42,7 @@ contains
     real(wp) :: turning(3)
     integer :: i, k
 
-    if (.not. allocated(pose%pin)) call make_room(linkage, origin, pose, per, now)
+    if (.not. allocated(pose%pin)) call make_room(linkage, pose, per, now)
     pose%crank = crank/degree
     do i = 1, 3
       associate (b => four_bar%body(i), link => linkage%bodies(four_bar%body(i)), &
@@ -82,20 +81,20 @@ contains
   end subroutine place_pin
 
   !> Room for all, with the places of the ground, which do not move.
-  pure subroutine make_room(linkage, origin, pose, per, now)
+  pure subroutine make_room(linkage, pose, per, now)
     type(linkage_t), intent(in) :: linkage
-    real(wp), intent(in) :: origin(2)
     type(pose_t), intent(inout) :: pose
     type(kinematic_coefficients_t), intent(inout) :: per, now
 
     integer :: pins, i
 
     pins = size(linkage%is_ground)
+    pose%origin = reference_point(linkage)
     allocate (pose%pin(2, pins), pose%direction(2, 3), per%turn(3), per%turn_slope(3), &
       per%pin(2, pins), per%pin_slope(2, pins), now%turn(3), now%turn_slope(3), now%pin(2, pins), &
       now%pin_slope(2, pins))
     do i = 1, pins
-      pose%pin(:, i) = linkage%ground_position(:, i) - origin
+      pose%pin(:, i) = linkage%ground_position(:, i) - pose%origin
     end do
     per%turn_slope = 0.0_wp
     per%pin = 0.0_wp

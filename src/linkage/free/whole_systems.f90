@@ -18,7 +18,7 @@ module whole_systems
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: demand_angle, demand_drive, demand_length, drive_of_angle, equation_t, &
-    linkage_t, normal_to, reference_point
+    linkage_t, normal_to
   use plan_equations, only: append_equation, drive_equation, length_drive, line_equation, &
     pin_equation, turn_equation
   use pose_types, only: pins_of_body, pose_t
@@ -34,7 +34,6 @@ module whole_systems
     integer, allocatable :: at_body(:)            !! (bodies) number of its unknown
     real(wp), allocatable :: scale(:)             !! (bodies) length of its largest arm [m]
     type(equation_t), allocatable :: equations(:) !! with those that are redundant
-    real(wp) :: origin(2) = 0.0_wp                !! `reference_point`
   end type whole_system_t
 
 contains
@@ -49,7 +48,6 @@ contains
     integer :: i, k, unknowns
 
     system%linkage = linkage
-    system%origin = reference_point(linkage)
     allocate (system%at_pin(size(linkage%is_ground)), system%at_body(size(linkage%bodies)), &
       system%scale(size(linkage%bodies)), system%equations(0))
     unknowns = 0
@@ -97,6 +95,7 @@ contains
     real(wp) :: angle
     integer :: i
 
+    moved%origin = pose%origin
     allocate (moved%pin, source=pose%pin)
     allocate (moved%direction, mold=pose%direction)
     do i = 1, size(system%at_pin)
@@ -204,7 +203,7 @@ contains
 
     now = drive_position(system, pose, 1, crank)
     do i = 1, size(misfit)
-      misfit(i) = misfit_of(system%linkage, system%equations(i), pose, system%origin, now)
+      misfit(i) = misfit_of(system%linkage, system%equations(i), pose, now)
     end do
   end function misfits
 
@@ -250,8 +249,7 @@ contains
 
     ! The drive's misfit is what its coordinate is above its phase.
     associate (it => system%linkage%drives(drive))
-      position = misfit_of(system%linkage, drive_equation(drive), pose, &
-        system%origin, 0.0_wp)
+      position = misfit_of(system%linkage, drive_equation(drive), pose, 0.0_wp)
       if (it%kind == drive_of_angle) position = position/degree
       position = position + it%phase
       if (it%kind == drive_of_angle) position = position + 360.0_wp*anint((near - &

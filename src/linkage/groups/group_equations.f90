@@ -142,11 +142,10 @@ contains
   end subroutine on_line
 
   !> By how much an equation is not fulfilled [m], or [rad] between angles.
-  pure function misfit_of(linkage, equation, pose, origin, crank) result(misfit)
+  pure function misfit_of(linkage, equation, pose, crank) result(misfit)
     type(linkage_t), intent(in) :: linkage   !! bodies, sliders, turns and drives
     type(equation_t), intent(in) :: equation !! one of its equations
     type(pose_t), intent(in) :: pose         !! pins and directions
-    real(wp), intent(in) :: origin(2)        !! from which the pins of the pose are counted [m]
     real(wp), intent(in) :: crank            !! coordinate of the first drive [deg] or [m]
     real(wp) :: misfit
 
@@ -162,7 +161,7 @@ contains
       u = pose%pin(:, equation%pin) - pose%pin(:, linkage%bodies(equation%body)%first_pin)
       misfit = cross(axis, u)/norm2(axis)
     case (demand_line)
-      call world_line(linkage, pose, equation%number, origin, axis, u)
+      call world_line(linkage, pose, equation%number, axis, u)
       misfit = cross(axis, pose%pin(:, linkage%sliders(equation%number)%pin) - u)
     case (demand_turn)
       associate (turn => linkage%turns(equation%number))
@@ -179,7 +178,7 @@ contains
           found = pose%direction(:, drive%body)
           misfit = atan2(cross(wanted, found), dot_product(wanted, found))
         case (drive_of_slider)
-          call world_line(linkage, pose, drive%slider, origin, axis, u)
+          call world_line(linkage, pose, drive%slider, axis, u)
           misfit = dot_product(axis, pose%pin(:, linkage%sliders(drive%slider)%pin) - u) - &
             drive_value(drive, crank)
         case (drive_of_length)
@@ -292,13 +291,12 @@ contains
   end function direction_at
 
   !> Direction and a point of the line of a slider.
-  pure subroutine world_line(linkage, pose, number, origin, direction, point)
+  pure subroutine world_line(linkage, pose, number, direction, point)
     type(linkage_t), intent(in) :: linkage !! its sliders
     type(pose_t), intent(in) :: pose       !! of the body that has the line
     integer, intent(in) :: number          !! of the slider, from 1
-    real(wp), intent(in) :: origin(2)      !! from which the pins of the pose are counted [m]
     real(wp), intent(out) :: direction(2)  !! unit vector, global axes
-    real(wp), intent(out) :: point(2)      !! from the origin [m]
+    real(wp), intent(out) :: point(2)      !! counted as the pins of the pose [m]
 
     direction = line_axis(linkage, pose, number)
     associate (slider => linkage%sliders(number))
@@ -306,7 +304,7 @@ contains
         point = pose%pin(:, linkage%bodies(slider%body)%first_pin) + turned(slider%point, &
           pose%direction(:, slider%body))
       else
-        point = slider%point - origin
+        point = slider%point - pose%origin
       end if
     end associate
   end subroutine world_line

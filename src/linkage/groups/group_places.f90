@@ -24,11 +24,10 @@ contains
   !! none that only iterations place.
   !!
   !! Errors: the position is out of reach; a dead point that leaves the group undetermined.
-  pure subroutine place_group(linkage, group, side, origin, crank, pose, sine, error)
+  pure subroutine place_group(linkage, group, side, crank, pose, sine, error)
     type(linkage_t), intent(in) :: linkage    !! bodies, sliders, turns and drives
     type(group_t), intent(in) :: group        !! of this linkage
     real(wp), intent(in) :: side              !! as in `group_t`
-    real(wp), intent(in) :: origin(2)         !! from which the pins of the pose are counted [m]
     real(wp), intent(in) :: crank             !! coordinate of the first drive [deg] or [m]
     type(pose_t), intent(inout) :: pose       !! with all groups before this one
     real(wp), intent(out) :: sine             !! of the group; see `pose_t`
@@ -47,16 +46,16 @@ contains
     case (group_driven_dyad)
       call place_driven_dyad(linkage, group, side, crank, pose, sine, error)
     case (group_on_line)
-      call place_on_line(linkage, group, side, origin, crank, pose, sine, error)
+      call place_on_line(linkage, group, side, crank, pose, sine, error)
     case (group_through_pin)
       call place_through_pin(linkage, group, side, pose, sine, error)
     case (group_two_lines)
-      call world_line(linkage, pose, group%slider(1), origin, axis, point)
-      call world_line(linkage, pose, group%slider(2), origin, other_axis, other_point)
+      call world_line(linkage, pose, group%slider(1), axis, point)
+      call world_line(linkage, pose, group%slider(2), other_axis, other_point)
       call intersect(axis, point, other_axis, other_point, pose%pin(:, group%pins(1)), sine, error)
     case (group_cross_slide)
       call turn_body(linkage, group, pose, crank)
-      call world_line(linkage, pose, group%slider(1), origin, axis, point)
+      call world_line(linkage, pose, group%slider(1), axis, point)
       other_axis = line_axis(linkage, pose, group%slider(2))
       ! The pin through which its own line passes, seen from the line through its first pin.
       other_point = pose%pin(:, group%middle) - line_offset(linkage, group%slider(2))*normal_to( &
@@ -76,7 +75,7 @@ contains
         group%body(1)), group%middle))
     case (group_placed)
       associate (drive => linkage%drives(group%equations(1)%number))
-        call world_line(linkage, pose, drive%slider, origin, axis, point)
+        call world_line(linkage, pose, drive%slider, axis, point)
         pose%pin(:, group%pins(1)) = point + drive_value(drive, crank)*axis
       end associate
     end select
@@ -162,11 +161,10 @@ contains
   !!
   !! With h the distance of the base from the line, the pin lies `√((r − h)(r + h))` from the foot
   !! of the perpendicular.
-  pure subroutine place_on_line(linkage, group, side, origin, crank, pose, sine, error)
+  pure subroutine place_on_line(linkage, group, side, crank, pose, sine, error)
     type(linkage_t), intent(in) :: linkage
     type(group_t), intent(in) :: group
     real(wp), intent(in) :: side
-    real(wp), intent(in) :: origin(2)
     real(wp), intent(in) :: crank
     type(pose_t), intent(inout) :: pose
     real(wp), intent(out) :: sine
@@ -174,7 +172,7 @@ contains
 
     real(wp) :: axis(2), point(2), place(2), way(2), r, h, squared, along
 
-    call world_line(linkage, pose, group%slider(1), origin, axis, point)
+    call world_line(linkage, pose, group%slider(1), axis, point)
     place = place_of_pin(linkage%bodies(group%body(1)), group%middle)
     sine = 0.0_wp
     call find_length(linkage, group%equations(1), group%body(1), crank, r, error)
@@ -256,11 +254,10 @@ contains
   !> Newton's method from a pose near by, until the corrections are rounding.
   !!
   !! Errors: a singular matrix, or no convergence. The pose is then of no use.
-  pure subroutine improve_group(linkage, group, origin, crank, pose, sine, largest, iterations, &
+  pure subroutine improve_group(linkage, group, crank, pose, sine, largest, iterations, &
     error)
     type(linkage_t), intent(in) :: linkage    !! bodies, sliders, turns and drives
     type(group_t), intent(in) :: group        !! with equations
-    real(wp), intent(in) :: origin(2)         !! from which the pins of the pose are counted [m]
     real(wp), intent(in) :: crank             !! coordinate of the first drive [deg] or [m]
     type(pose_t), intent(inout) :: pose       !! near the solution; the solution
     real(wp), intent(out) :: sine             !! as in `pose_t`, at the last iteration
@@ -283,7 +280,7 @@ contains
       if (.not. abs(factor%determinant) > 0.0_wp) exit
       reach = maxval([maxval(abs(pose%pin)), scales])
       do i = 1, size(group%equations)
-        misfit(i) = misfit_of(linkage, group%equations(i), pose, origin, crank)
+        misfit(i) = misfit_of(linkage, group%equations(i), pose, crank)
       end do
       step = -solve(factor, misfit)
       do k = 1, size(group%pins)

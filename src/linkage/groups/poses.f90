@@ -9,7 +9,7 @@ module poses
   use kinds, only: wp
   use linkages, only: bridge_t, group_t, group_by_newton, group_dyad, is_dyad_linkage, &
     linkage_t, normal_to, path_t, reference_point, turned
-  use pose_types, only: pose_t
+  use pose_types, only: count_from, pose_t
   use redundancies, only: refuse_misfit
   use text, only: to_string
   implicit none (type, external)
@@ -106,14 +106,11 @@ contains
     type(pose_t), intent(out) :: pose                !! incomplete after an error
     type(error_t), allocatable, intent(out) :: error !! why there is no pose
 
-    real(wp) :: origin(2)
-
-    origin = reference_point(linkage)
     call place_pins(linkage, crank, pose, error)
     if (allocated(error)) return
-    call refuse_misfit(linkage, pose, origin, crank, error)
+    call refuse_misfit(linkage, pose, crank, error)
     if (.not. allocated(error)) call refuse_leaving_block(linkage, pose, error)
-    pose%pin = pose%pin + spread(origin, 2, size(pose%pin, 2))
+    call count_from([0.0_wp, 0.0_wp], pose)
   end subroutine place_links
 
   !> Places every pin relative to `reference_point`, whether redundant links fit there or not.
@@ -219,10 +216,10 @@ contains
     type(error_t), allocatable, intent(inout) :: error !! why there is no pose
     real(wp), intent(in), optional :: side(:) !! (groups) in place of their own
 
-    real(wp) :: origin(2), largest, its_side
+    real(wp) :: largest, its_side
     integer :: i, iterations
 
-    origin = reference_point(linkage)
+    pose%origin = reference_point(linkage)
     correction = 0.0_wp
     pose%crank = crank
     if (.not. allocated(pose%pin)) then
@@ -232,7 +229,7 @@ contains
     end if
     if (.not. allocated(pose%sine)) allocate (pose%sine(size(linkage%groups)))
     do i = 1, size(linkage%is_ground)
-      if (linkage%is_ground(i)) pose%pin(:, i) = linkage%ground_position(:, i) - origin
+      if (linkage%is_ground(i)) pose%pin(:, i) = linkage%ground_position(:, i) - pose%origin
     end do
     pose%sine = 0.0_wp
     if (linkage%has_crank) then
@@ -247,11 +244,11 @@ contains
           call place_dyad(linkage, group, linkage%bodies(group%body)%length, its_side, pose, &
             pose%sine(i), error)
         else if (group%kind == group_by_newton) then
-          call improve_group(linkage, group, origin, crank, pose, pose%sine(i), largest, &
+          call improve_group(linkage, group, crank, pose, pose%sine(i), largest, &
             iterations, error)
           correction = max(correction, largest)
         else
-          call place_group(linkage, group, its_side, origin, crank, pose, pose%sine(i), error)
+          call place_group(linkage, group, its_side, crank, pose, pose%sine(i), error)
         end if
       end associate
       if (allocated(error)) return

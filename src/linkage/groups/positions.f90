@@ -126,8 +126,7 @@ contains
 
     allocate (state%pose, state%coefficients)
     call find_moving_pose(linkage, state%crank, state%pose, state%error)
-    if (.not. allocated(state%error)) call refuse_beyond_tables(linkage, state%pose, &
-      [0.0_wp, 0.0_wp], state%error)
+    if (.not. allocated(state%error)) call refuse_beyond_tables(linkage, state%pose, state%error)
     if (.not. allocated(state%error)) state%coefficients = &
       find_kinematic_coefficients(linkage, state%pose)
   end subroutine find_state

@@ -12,7 +12,7 @@
 module bridges
   use constants, only: degree
   use kinds, only: wp
-  use linkages, only: bridge_t, cross, drive_of_angle, linkage_t, path_t
+  use linkages, only: bridge_t, cross, drive_of_angle, linkage_t, path_t, reference_point
   use pose_types, only: pose_t
   implicit none (type, external)
   private
@@ -79,6 +79,7 @@ contains
       weight(:, 2) = weight(:, 2)/degree**2
     end if
     pose%crank = crank
+    pose%origin = reference_point(linkage)
     allocate (pose%coefficients)
     associate (it => pose%coefficients, pins => size(bridge%pin, 2), &
         bodies => size(bridge%direction, 2))

@@ -51,15 +51,14 @@ contains
   end function is_near_change
 
   !> Looks for a change point in the next steps, and for the bridge over it.
-  pure subroutine find_bridge(linkage, station, step, unit, usual, span, origin, bridge, last, &
-    next, found, is_ahead)
+  pure subroutine find_bridge(linkage, station, step, unit, usual, span, bridge, last, next, &
+    found, is_ahead)
     type(linkage_t), intent(in) :: linkage   !! with groups and redundancies
     type(station_t), intent(in) :: station   !! before it, where equations are independent
     real(wp), intent(in) :: step             !! along the way, with its sign [deg] or [m]
     real(wp), intent(in) :: unit             !! of the coordinate [rad] or [m]
     real(wp), intent(in) :: usual(:)         !! (groups) sizes of the determinants
     real(wp), intent(in) :: span             !! size of the linkage [m]
-    real(wp), intent(in) :: origin(2)        !! from which pins of poses are counted [m]
     type(bridge_t), intent(out) :: bridge
     type(station_t), intent(out) :: last, next !! its ends, in the sense of the way
     logical, intent(out) :: found
@@ -96,7 +95,7 @@ contains
       ! The best spacing is not known beforehand: wide zones want wide ones.
       spacing = sign(0.5_wp*max(abs(step), abs(width)), step)
       do k = 1, 7
-        call build(linkage, before, behind, spacing, unit, span, origin, tried)
+        call build(linkage, before, behind, spacing, unit, span, tried)
         spacing = 0.5_wp*spacing
         if (tried%error > most_error) cycle
         ! That of accelerations: those of a narrower bridge are less exact than its places.
@@ -221,13 +220,12 @@ contains
 
   !> A bridge through nodes at a spacing, with its error: that of the polynomial, from that through
   !! fewer nodes, and by how much equations are not fulfilled.
-  pure subroutine build(linkage, last, next, spacing, unit, span, origin, bridge)
+  pure subroutine build(linkage, last, next, spacing, unit, span, bridge)
     type(linkage_t), intent(in) :: linkage
     type(station_t), intent(in) :: last, next
     real(wp), intent(in) :: spacing !! with the sign of the way
     real(wp), intent(in) :: unit
     real(wp), intent(in) :: span
-    real(wp), intent(in) :: origin(2)
     type(bridge_t), intent(out) :: bridge
 
     integer, parameter :: probes = 5
@@ -257,7 +255,7 @@ contains
       call cross_bridge(linkage, narrow, at, fewer)
       error = max(error, maxval(abs(all_nodes%pin - fewer%pin))/span, &
         maxval(abs(all_nodes%direction - fewer%direction)), &
-        weight_of_gaps*largest_gap(linkage, all_nodes, origin, at)/span)
+        weight_of_gaps*largest_gap(linkage, all_nodes, at)/span)
     end do
     bridge%error = error
   end subroutine build
@@ -294,10 +292,9 @@ contains
   end subroutine place_nodes
 
   !> The largest gap between what joints hold together [m]; angles count with the length of a body.
-  pure function largest_gap(linkage, pose, origin, crank) result(gap)
+  pure function largest_gap(linkage, pose, crank) result(gap)
     type(linkage_t), intent(in) :: linkage !! with or without redundancies
     type(pose_t), intent(in) :: pose
-    real(wp), intent(in) :: origin(2)      !! from which the pins of the pose are counted [m]
     real(wp), intent(in) :: crank          !! coordinate of the first drive [deg] or [m]
     real(wp) :: gap
 
@@ -318,12 +315,11 @@ contains
       end do
     end do
     do i = 1, size(linkage%sliders)
-      gap = max(gap, abs(misfit_of(linkage, equation_t(demand_line, number=i), pose, origin, &
-        crank)))
+      gap = max(gap, abs(misfit_of(linkage, equation_t(demand_line, number=i), pose, crank)))
     end do
     do i = 1, size(linkage%turns)
       gap = max(gap, linkage%bodies(linkage%turns(i)%body)%length*abs(misfit_of(linkage, &
-        equation_t(demand_turn, number=i), pose, origin, crank)))
+        equation_t(demand_turn, number=i), pose, crank)))
     end do
   end function largest_gap
 

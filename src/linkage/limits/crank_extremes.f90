@@ -307,7 +307,7 @@ contains
     real(wp) :: axis(2), point(2), way(2), velocity(2)
 
     associate (slider => linkage%sliders(number))
-      call world_line(linkage, pose, number, [0.0_wp, 0.0_wp], axis, point)
+      call world_line(linkage, pose, number, axis, point)
       way = pose%pin(:, slider%pin) - point
       value = dot_product(axis, way)
       rate = dot_product(axis, coefficients%pin(:, slider%pin))

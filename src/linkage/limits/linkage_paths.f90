@@ -14,7 +14,7 @@ module linkage_paths
     group_t, group_by_newton, is_dyad_linkage, linkage_t, path_t, reference_point
   use path_limits, only: approach_t, watch
   use path_steps, only: new_station, station_t, take_step
-  use pose_types, only: drawn_pose, pose_t
+  use pose_types, only: count_from, drawn_pose, pose_t
   use poses, only: dead_point_sine, place_groups, place_links
   implicit none (type, external)
   private
@@ -153,11 +153,10 @@ contains
 
     type(pose_t) :: pose
     logical :: is_given(size(linkage%is_ground))
-    real(wp) :: origin(2), correction, farthest
+    real(wp) :: correction, farthest
     integer :: i
 
-    origin = reference_point(linkage)
-    pose = drawn_pose(linkage, origin)
+    pose = drawn_pose(linkage, reference_point(linkage))
     call place_groups(linkage, start, pose, correction, error)
     if (allocated(error)) return
     span = linkage_span(linkage, pose)
@@ -165,12 +164,12 @@ contains
     is_given = linkage%drawing%is_drawn .and. .not. linkage%is_ground
     if (allocated(linkage%drawing%follows)) is_given = is_given .and. .not. linkage%drawing%follows
     do i = 1, size(linkage%is_ground)
-      if (is_given(i)) farthest = max(farthest, norm2(pose%pin(:, i) + origin - &
+      if (is_given(i)) farthest = max(farthest, norm2(pose%pin(:, i) + pose%origin - &
         linkage%drawing%pin(:, i)))
     end do
     if (farthest > drawing_reach*span) then
       nearest = pose
-      nearest%pin = nearest%pin + spread(origin, 2, size(nearest%pin, 2))
+      call count_from([0.0_wp, 0.0_wp], nearest)
       call set_error(error, error_of_input, "the linkage does not assemble near the drawing")
       return
     end if
@@ -438,8 +437,8 @@ contains
         found = .false.
         is_close = .true.
         if (through) then
-          call find_bridge(linkage, here, sense*most_step, unit, usual, span, &
-            reference_point(linkage), bridge, last, behind, found, is_ahead)
+          call find_bridge(linkage, here, sense*most_step, unit, usual, span, bridge, last, &
+            behind, found, is_ahead)
           is_close = .not. (found .or. is_ahead)
         end if
         if (found) then

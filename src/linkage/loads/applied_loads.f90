@@ -110,10 +110,9 @@ contains
   end subroutine add_conservative_loads
 
   !> Adds forces and couples that a table or their body determines, and constant couples.
-  pure subroutine add_prescribed_loads(linkage, pose, origin, body_load, pin_load)
+  pure subroutine add_prescribed_loads(linkage, pose, body_load, pin_load)
     type(linkage_t), intent(in) :: linkage          !! its loads
     type(pose_t), intent(in) :: pose                !! with the coordinate of the first drive
-    real(wp), intent(in) :: origin(2)               !! from which its pins are counted [m]
     type(load_t), intent(inout) :: body_load(:)     !! (bodies) about their first pins
     real(wp), intent(inout) :: pin_load(:, :)       !! (2, pins) [N]
 
@@ -123,26 +122,25 @@ contains
       associate (load => linkage%loads(i))
         if (.not. is_prescribed(load)) cycle
         if (load%kind == applies_force) then
-          call add_force(pose, load%at(1), table_factor(linkage, pose, origin, load)* &
+          call add_force(pose, load%at(1), table_factor(linkage, pose, load)* &
             force_of(pose, load), body_load, pin_load)
         else
           body_load(load%body(1))%moment = body_load(load%body(1))%moment + &
-            table_factor(linkage, pose, origin, load)*load%couple
+            table_factor(linkage, pose, load)*load%couple
         end if
       end associate
     end do
   end subroutine add_prescribed_loads
 
   !> Adds all that a pose determines: springs, and loads that a table or their body determines.
-  pure subroutine add_standing_loads(linkage, pose, origin, body_load, pin_load)
+  pure subroutine add_standing_loads(linkage, pose, body_load, pin_load)
     type(linkage_t), intent(in) :: linkage          !! its loads
     type(pose_t), intent(in) :: pose                !! with the coordinate of the first drive
-    real(wp), intent(in) :: origin(2)               !! from which its pins are counted [m]
     type(load_t), intent(inout) :: body_load(:)     !! (bodies) about their first pins
     real(wp), intent(inout) :: pin_load(:, :)       !! (2, pins) [N]
 
     call add_conservative_loads(linkage, pose, body_load, pin_load)
-    call add_prescribed_loads(linkage, pose, origin, body_load, pin_load)
+    call add_prescribed_loads(linkage, pose, body_load, pin_load)
   end subroutine add_standing_loads
 
   !> Places of a body on which forces act that a pose determines, or all forces.
@@ -172,10 +170,9 @@ contains
   end function forced_places
 
   !> The forces at places of bodies that a pose determines; 0 of all other loads [N].
-  pure function forces_at_places(linkage, pose, origin) result(force)
+  pure function forces_at_places(linkage, pose) result(force)
     type(linkage_t), intent(in) :: linkage           !! its loads, and places where forces act
     type(pose_t), intent(in) :: pose                 !! with the coordinate of the first drive
-    real(wp), intent(in) :: origin(2)                !! from which its pins are counted [m]
     real(wp) :: force(2, load_count(linkage))        !! (2, loads) in global axes
 
     integer :: b, i
@@ -187,7 +184,7 @@ contains
         associate (number => linkage%bodies(b)%forced(i)%load)
           if (.not. (is_conservative(linkage%loads(number)) .or. &
             is_prescribed(linkage%loads(number)))) cycle
-          force(:, number) = table_factor(linkage, pose, origin, linkage%loads(number))* &
+          force(:, number) = table_factor(linkage, pose, linkage%loads(number))* &
             force_of(pose, linkage%loads(number))
         end associate
       end do
@@ -196,10 +193,9 @@ contains
 
   !> Adds what depends on the motion: dampers, resistances, and loads that act in one direction of
   !! the motion only.
-  pure subroutine add_moving_loads(linkage, pose, origin, now, body_load, pin_load)
+  pure subroutine add_moving_loads(linkage, pose, now, body_load, pin_load)
     type(linkage_t), intent(in) :: linkage          !! its loads
     type(pose_t), intent(in) :: pose                !! with the coordinate of the first drive
-    real(wp), intent(in) :: origin(2)               !! from which its pins are counted [m]
     type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
     type(load_t), intent(inout) :: body_load(:)     !! (bodies) about their first pins
     real(wp), intent(inout) :: pin_load(:, :)       !! (2, pins) [N]
@@ -211,11 +207,11 @@ contains
         if (.not. is_moving(load)) cycle
         select case (load%kind)
         case (applies_force)
-          call add_force(pose, load%at(1), moving_force(linkage, pose, origin, now, &
-            load), body_load, pin_load)
+          call add_force(pose, load%at(1), moving_force(linkage, pose, now, load), body_load, &
+            pin_load)
         case (applies_couple)
           body_load(load%body(1))%moment = body_load(load%body(1))%moment + &
-            moving_couple(linkage, pose, origin, now, load)
+            moving_couple(linkage, pose, now, load)
         case default
           call add_pull(linkage, pose, load, damper_pull(linkage, pose, now, load), body_load, &
             pin_load)
@@ -226,10 +222,9 @@ contains
 
   !> What a force at a place has beside its part that a pose determines: its resistance to the
   !! motion of the place, and all of it where it acts in one direction of the motion [N].
-  pure function moving_force(linkage, pose, origin, now, load) result(force)
+  pure function moving_force(linkage, pose, now, load) result(force)
     type(linkage_t), intent(in) :: linkage          !! of this load
     type(pose_t), intent(in) :: pose                !! with the coordinate of the first drive
-    real(wp), intent(in) :: origin(2)               !! from which its pins are counted [m]
     type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
     type(applied_load_t), intent(in) :: load        !! a force that `is_moving`
     real(wp) :: force(2)
@@ -241,14 +236,13 @@ contains
     force = -load%damping*velocity
     if (speed > 0.0_wp) force = force - resistance(load, speed)/speed*velocity
     if (load%during /= acts_always) force = force + share_of(load, velocity, force_of(pose, &
-      load))*table_factor(linkage, pose, origin, load)*force_of(pose, load)
+      load))*table_factor(linkage, pose, load)*force_of(pose, load)
   end function moving_force
 
   !> The same of a couple on a body [N m].
-  pure function moving_couple(linkage, pose, origin, now, load) result(couple)
+  pure function moving_couple(linkage, pose, now, load) result(couple)
     type(linkage_t), intent(in) :: linkage          !! of this load
     type(pose_t), intent(in) :: pose                !! with the coordinate of the first drive
-    real(wp), intent(in) :: origin(2)               !! from which its pins are counted [m]
     type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
     type(applied_load_t), intent(in) :: load        !! a couple that `is_moving`
     real(wp) :: couple
@@ -258,7 +252,7 @@ contains
     speed = now%turn(load%body(1))
     couple = -load%damping*speed - resistance(load, speed)
     if (load%during /= acts_always) couple = couple + share_of(load, [speed, 0.0_wp], &
-      [load%couple, 0.0_wp])*table_factor(linkage, pose, origin, load)*load%couple
+      [load%couple, 0.0_wp])*table_factor(linkage, pose, load)*load%couple
   end function moving_couple
 
   !> How springs pull, or turn bodies back; 0 of all other loads [N] or [N m].
@@ -328,10 +322,9 @@ contains
 
   !> Potential energy of springs, 0 unloaded, and of constant forces, 0 with their places at the
   !! global origin [J].
-  pure function applied_potential(linkage, pose, origin) result(energy)
+  pure function applied_potential(linkage, pose) result(energy)
     type(linkage_t), intent(in) :: linkage !! its loads
     type(pose_t), intent(in) :: pose       !! positions and directions
-    real(wp), intent(in) :: origin(2)      !! from which its pins are counted [m]
     real(wp) :: energy
 
     real(wp) :: stretch
@@ -342,7 +335,8 @@ contains
       associate (load => linkage%loads(i))
         if (.not. is_conservative(load)) cycle
         if (load%kind == applies_force) then
-          energy = energy - dot_product(load%force, place_in(linkage, pose, load%at(1)) + origin)
+          energy = energy - dot_product(load%force, place_in(linkage, pose, load%at(1)) + &
+            pose%origin)
         else
           stretch = load_deflection(linkage, pose, load)
           energy = energy + (load%tension + 0.5_wp*load%stiffness*stretch)*stretch

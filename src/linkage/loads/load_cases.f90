@@ -95,9 +95,9 @@ contains
     type(load_t) :: body_loads(size(linkage%bodies))
     integer :: b
 
-    call add_standing_loads(linkage, pose, [0.0_wp, 0.0_wp], body_loads, constant%pin_force)
+    call add_standing_loads(linkage, pose, body_loads, constant%pin_force)
     constant%couple = constant%couple + body_loads%moment
-    constant%place_force = forces_at_places(linkage, pose, [0.0_wp, 0.0_wp])
+    constant%place_force = forces_at_places(linkage, pose)
     allocate (constant%body_force(2, size(body_loads)))
     do b = 1, size(body_loads)
       constant%body_force(:, b) = body_loads(b)%force

@@ -28,10 +28,9 @@ contains
 
   !> Refuses a pose beyond the ends of a table, or with a torsional spring near half a turn from its
   !! rest, where its torque would jump.
-  pure subroutine refuse_beyond_tables(linkage, pose, origin, error)
+  pure subroutine refuse_beyond_tables(linkage, pose, error)
     type(linkage_t), intent(in) :: linkage !! its loads
     type(pose_t), intent(in) :: pose       !! with the coordinate of the first drive
-    real(wp), intent(in) :: origin(2)      !! from which its pins are counted [m]
     type(error_t), allocatable, intent(inout) :: error !! allocated if there is such a table or
                                                        !! spring
 
@@ -51,7 +50,7 @@ contains
           end if
         end if
         if (load%over == over_nothing .or. load%table%is_periodic) cycle
-        x = table_coordinate(linkage, pose, origin, load)
+        x = table_coordinate(linkage, pose, load)
         first = load%table%x(1)
         last = load%table%x(size(load%table%x))
         if (x >= first - slack*(last - first) .and. x <= last + slack*(last - first)) cycle
@@ -99,10 +98,9 @@ contains
   end function load_period
 
   !> What the value of a load is multiplied with: 1, or the value of its table.
-  pure function table_factor(linkage, pose, origin, load) result(factor)
+  pure function table_factor(linkage, pose, load) result(factor)
     type(linkage_t), intent(in) :: linkage   !! its sliders and bodies
     type(pose_t), intent(in) :: pose         !! with the coordinate of the first drive
-    real(wp), intent(in) :: origin(2)        !! from which its pins are counted [m]
     type(applied_load_t), intent(in) :: load !! with a table or without
     real(wp) :: factor
 
@@ -110,15 +108,14 @@ contains
 
     factor = 1.0_wp
     if (load%over == over_nothing) return
-    values = spline_values(load%table, table_coordinate(linkage, pose, origin, load))
+    values = spline_values(load%table, table_coordinate(linkage, pose, load))
     factor = values(1)
   end function table_factor
 
   !> The coordinate that the table of a load is over [m] or [rad].
-  pure function table_coordinate(linkage, pose, origin, load) result(x)
+  pure function table_coordinate(linkage, pose, load) result(x)
     type(linkage_t), intent(in) :: linkage   !! its sliders and bodies
     type(pose_t), intent(in) :: pose         !! with the coordinate of the first drive
-    real(wp), intent(in) :: origin(2)        !! from which its pins are counted [m]
     type(applied_load_t), intent(in) :: load !! with a table
     real(wp) :: x
 
@@ -129,10 +126,11 @@ contains
       x = pose%crank
       if (linkage%drives(1)%kind == drive_of_angle) x = x*degree
     case (over_slider)
-      call world_line(linkage, pose, load%number, origin, axis, point)
+      call world_line(linkage, pose, load%number, axis, point)
       x = dot_product(axis, pose%pin(:, linkage%sliders(load%number)%pin) - point)
     case (over_travel)
-      x = dot_product(load%force, place_in(linkage, pose, load%at(1)) + origin)/norm2(load%force)
+      x = dot_product(load%force, place_in(linkage, pose, load%at(1)) + pose%origin)/ &
+        norm2(load%force)
     case (over_angle)
       x = body_angle(linkage, pose, load%number)
     case default

@@ -87,8 +87,7 @@ contains
     running%pin_load = 0.0_wp
     if (has_moving_loads(linkage)) then
       now = velocities_at(coefficients, speed)
-      call add_moving_loads(linkage, pose, [0.0_wp, 0.0_wp], now, running%body_load, &
-        running%pin_load)
+      call add_moving_loads(linkage, pose, now, running%body_load, running%pin_load)
       running%on_ground = pulls_on_ground(linkage, pose, damper_pulls(linkage, pose, now))
     end if
     if (present(divided)) then

@@ -117,7 +117,7 @@ contains
         is_flat = is_flat .or. abs(sine) < flat
         holds(i, k) = sine*cards(i)%side > 0.0_wp
       end do
-      call refuse_misfit(linkage, pose, reference_point(linkage), crank, error)
+      call refuse_misfit(linkage, pose, crank, error)
       fits(k) = .not. allocated(error)
     end do
   end subroutine try_assemblies
@@ -159,7 +159,7 @@ contains
     base = card%base(1)
     if (card%on_line) then
       call find_line(linkage, card%pin, slider, base)
-      call world_line(linkage, pose, slider, reference_point(linkage), axis, point)
+      call world_line(linkage, pose, slider, axis, point)
     else
       axis = pose%pin(:, card%base(2)) - pose%pin(:, base)
     end if

@@ -41,7 +41,7 @@ contains
     linkage%drawing%follows = linkage%drawing%is_drawn
     do g = 1, size(drawn%groups)
       associate (group => drawn%groups(g))
-        call place_group(drawn, group, group%side, [0.0_wp, 0.0_wp], crank, pose, sine, error)
+        call place_group(drawn, group, group%side, crank, pose, sine, error)
         ! Pins at one place, parallel lines: the drawing ends here.
         if (allocated(error)) exit
         linkage%drawing%is_drawn(group%pins) = .true.

@@ -17,10 +17,9 @@ module redundancies
 contains
 
   !> The largest misfit of redundant equations; angles count with the length of the body [m].
-  pure subroutine largest_misfit(linkage, pose, origin, crank, misfit, number)
+  pure subroutine largest_misfit(linkage, pose, crank, misfit, number)
     type(linkage_t), intent(in) :: linkage !! with redundancies
     type(pose_t), intent(in) :: pose       !! of all groups
-    real(wp), intent(in) :: origin(2)      !! from which the pins of the pose are counted [m]
     real(wp), intent(in) :: crank          !! coordinate of the first drive [deg] or [m]
     real(wp), intent(out) :: misfit        !! with its sign: of a length, how much it is too short
     integer, intent(out) :: number         !! of the redundancy; 0: there is none
@@ -31,7 +30,7 @@ contains
     misfit = 0.0_wp
     number = 0
     do i = 1, size(linkage%redundancies)
-      this = misfit_of_redundancy(linkage, i, pose, origin, crank)
+      this = misfit_of_redundancy(linkage, i, pose, crank)
       if (number > 0 .and. abs(this) <= abs(misfit)) cycle
       misfit = this
       number = i
@@ -39,26 +38,24 @@ contains
   end subroutine largest_misfit
 
   !> The misfit of a redundant equation; an angle counts with the length of the body [m].
-  pure function misfit_of_redundancy(linkage, number, pose, origin, crank) result(misfit)
+  pure function misfit_of_redundancy(linkage, number, pose, crank) result(misfit)
     type(linkage_t), intent(in) :: linkage !! with redundancies
     integer, intent(in) :: number          !! of the redundancy, from 1
     type(pose_t), intent(in) :: pose       !! of all groups
-    real(wp), intent(in) :: origin(2)      !! from which the pins of the pose are counted [m]
     real(wp), intent(in) :: crank          !! coordinate of the first drive [deg] or [m]
     real(wp) :: misfit
 
     associate (equation => linkage%redundancies(number))
-      misfit = misfit_of(linkage, equation, pose, origin, crank)
+      misfit = misfit_of(linkage, equation, pose, crank)
       if (equation%kind == demand_turn) misfit = misfit*linkage%bodies(linkage%turns( &
         equation%number)%body)%length
     end associate
   end function misfit_of_redundancy
 
   !> An error where a linkage does not fit.
-  pure subroutine refuse_misfit(linkage, pose, origin, crank, error)
+  pure subroutine refuse_misfit(linkage, pose, crank, error)
     type(linkage_t), intent(in) :: linkage !! with or without redundancies
     type(pose_t), intent(in) :: pose       !! of all groups
-    real(wp), intent(in) :: origin(2)      !! from which the pins of the pose are counted [m]
     real(wp), intent(in) :: crank          !! coordinate of the first drive [deg] or [m]
     type(error_t), allocatable, intent(inout) :: error !! allocated if it does not
 
@@ -66,7 +63,7 @@ contains
     integer :: number
 
     if (size(linkage%redundancies) == 0) return
-    call largest_misfit(linkage, pose, origin, crank, misfit, number)
+    call largest_misfit(linkage, pose, crank, misfit, number)
     if (is_fit(linkage, pose, misfit)) return
     call set_error(error, error_of_reach, "the redundant link does not fit, by "// &
       to_string(abs(misfit), 3)//" m", body=body_of_redundancy(linkage, number))

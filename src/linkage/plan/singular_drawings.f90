@@ -43,8 +43,7 @@ contains
     if (.not. all(linkage%drawing%is_drawn .or. linkage%is_ground)) return
     start = drawn_pose(linkage, reference_point(linkage))
     do i = 1, size(linkage%is_ground)
-      if (linkage%is_ground(i)) start%pin(:, i) = linkage%ground_position(:, i) - &
-        reference_point(linkage)
+      if (linkage%is_ground(i)) start%pin(:, i) = linkage%ground_position(:, i) - start%origin
     end do
     call list_equations(linkage, equations)
     span = max(maxval(abs(start%pin)), maxval(linkage%bodies%length))
@@ -164,7 +163,7 @@ contains
     matrix = 0.0_wp
     largest = 0.0_wp
     do i = 1, size(equations)
-      misfits(i) = misfit_of(linkage, equations(i), pose, reference_point(linkage), crank)
+      misfits(i) = misfit_of(linkage, equations(i), pose, crank)
       call find_gradient(linkage, equations(i), pose, gradient)
       do k = 1, 2
         associate (pin => gradient%pin(k), body => gradient%body(k))

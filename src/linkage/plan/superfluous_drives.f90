@@ -3,7 +3,7 @@ module superfluous_drives
   use constants, only: degree
   use errors, only: error_t
   use kinds, only: wp
-  use linkages, only: drive_of_angle, linkage_t, reference_point
+  use linkages, only: drive_of_angle, linkage_t
   use pose_types, only: pose_t
   use poses, only: place_pins
   use redundancies, only: misfit_of_redundancy
@@ -51,8 +51,8 @@ contains
         number = 0
         return
       end if
-      rates(:, k) = [((misfit_of_redundancy(moved, i, other, reference_point(moved), crank) - &
-        misfit_of_redundancy(linkage, i, pose, reference_point(linkage), crank))/step, &
+      rates(:, k) = [((misfit_of_redundancy(moved, i, other, crank) - &
+        misfit_of_redundancy(linkage, i, pose, crank))/step, &
         i=1, size(rates, 1))]
       if (k > 1 .and. any(abs(rates(:, k)) > follows)) number = k
     end do

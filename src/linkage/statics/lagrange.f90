@@ -77,9 +77,9 @@ contains
     real(wp) :: pin_load(2, size(linkage%is_ground))
 
     pin_load = 0.0_wp
-    call add_standing_loads(linkage, pose, [0.0_wp, 0.0_wp], body_load, pin_load)
+    call add_standing_loads(linkage, pose, body_load, pin_load)
     terms%load = terms%load - generalised_force(linkage, coefficients, body_load, pin_load)
-    terms%potential = terms%potential + applied_potential(linkage, pose, [0.0_wp, 0.0_wp])
+    terms%potential = terms%potential + applied_potential(linkage, pose)
   end subroutine add_applied_loads
 
   !> Adds a mass that moves without rotating.

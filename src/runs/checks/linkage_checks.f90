@@ -11,7 +11,7 @@ module linkage_checks
   use kinds, only: wp
   use linkage_builder, only: assembly_t
   use linkages, only: demand_angle, demand_length, equation_t, group_dyad, is_dyad_linkage, &
-    linkage_t, reference_point
+    linkage_t
   use mechanisms, only: mechanism_t, pins_of_body
   use misfit_words, only: amount_text, misfit_text, name_redundancy
   use models, only: drives_length, effects_axial, model_t, needs_frequencies, needs_response, &
@@ -200,7 +200,7 @@ contains
       call place_pins(linkage, cranks(i), pose, error)
       if (allocated(error)) cycle
       found%span = max(found%span, maxval(abs(pose%pin)), maxval(linkage%bodies%length))
-      call largest_misfit(linkage, pose, reference_point(linkage), cranks(i), misfit, number)
+      call largest_misfit(linkage, pose, cranks(i), misfit, number)
       fits = is_fit(linkage, pose, misfit)
       if (fits) found%fitting = found%fitting + 1
       if (found%number == 0 .and. .not. fits) then
