@@ -11,6 +11,7 @@ program main
   use figures_command, only: command_for_figures
   use interruption, only: limit_time, was_interrupted, watch_for_interruption
   use kinds, only: wp
+  use memory_refusals, only: require_memory
   use manual_page, only: manual_page_text
   use rank_service, only: dismiss_ranks, serve_leader
   use ranks, only: leader, own_rank, ranks_here, start_ranks
@@ -20,6 +21,9 @@ program main
   use stopwatch, only: lap, start_stopwatch, stopwatch_t
   use text, only: plural, string_t, to_string, visible
   implicit none (type, external)
+
+  !> To read a deck, however short [bytes].
+  integer, parameter :: least_memory = 2000000
 
   type(command_t) :: command
   type(deck_t), allocatable :: decks(:)
@@ -57,6 +61,7 @@ program main
     call print_and_leave(completion_text(command%shell))
   end if
 
+  call require_memory(least_memory)
   threads = threads_in_memory(command%threads)
   if (threads < command%threads .and. .not. command%quiet) call say("flexmech: warning: the "// &
     "limit of address space (ulimit -v) has room for "//to_string(threads)//" of "// &

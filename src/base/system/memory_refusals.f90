@@ -4,18 +4,32 @@
 !! take their place when the program is linked; they may not return, so that this is the only end
 !! besides that in `main`. The run's folder keeps the files of an earlier run, and the journal.
 module memory_refusals
-  use, intrinsic :: iso_c_binding, only: c_int, c_long, c_ptr, c_size_t
+  use, intrinsic :: iso_c_binding, only: c_int, c_long, c_null_ptr, c_ptr, c_size_t
+  use, intrinsic :: iso_fortran_env, only: int8
   use system_calls, only: c_exit_at_once, c_write
   implicit none (type, external)
   private
 
-  public :: refuse_allocation, refuse_memory
+  public :: require_memory, refuse_allocation, refuse_memory
 
   character(len=*), parameter :: words = "flexmech: error: the system refuses more memory; "// &
     "nothing was written, and an earlier run's files are untouched: expected fewer --threads, "// &
     "positions, speeds or modes, or a higher limit (ulimit -v)"//achar(10)
 
 contains
+
+  !> Ends the program unless the system still gives so much memory. What the compiler copies by itself
+  !! it does not check: an assignment of a polymorphic component stops with a signal (gfortran 12).
+  subroutine require_memory(bytes)
+    integer, intent(in) :: bytes !! number
+
+    ! Or it is found out that nothing uses the memory.
+    integer(int8), allocatable, volatile :: room(:)
+    integer :: status
+
+    allocate (room(bytes), stat=status)
+    if (status /= 0) call refuse_memory(c_null_ptr)
+  end subroutine require_memory
 
   !> In place of the library's end after ALLOCATE.
   subroutine refuse_allocation(place, message) bind(c, name="_gfortran_os_error_at")

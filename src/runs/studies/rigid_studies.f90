@@ -370,7 +370,8 @@ contains
     type(variant_results_t), intent(in) :: variant
     type(run_totals_t), intent(inout) :: totals
 
-    real(wp) :: drives(3, size(variant%mechanism%linkage%drives)), rates(2)
+    real(wp), allocatable :: drives(:, :)
+    real(wp) :: rates(2)
     integer :: i, k, state
 
     associate (found => variant%found, kinds => variant%model%reports%kind)
