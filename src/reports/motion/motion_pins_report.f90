@@ -2,7 +2,7 @@
 ! In: the `motion_result_t` of a variant. Out: rows at every instant: drives, energies, pins, forces
 ! in joints. Begin with `describe_motion` in `motion_report.f90`; here is what its tables share:
 ! time, and the row of an early end.
-! Not here: the motion (`src/studies/rigid/motion_study.f90`), elastic motions in time
+! Not here: the motion (`src/studies/motion/motion_study.f90`), elastic motions in time
 ! (`src/reports/elastic`).
 
 !> `motion_pins.dat`: where the pins are while the linkage moves under its motor and loads.

@@ -1,8 +1,9 @@
-! src/studies/rigid/ - studies of the rigid linkage: kinematics, forces, limits, sizing, motion.
+! src/studies/rigid/ - studies of the rigid linkage: kinematics, forces, limits, sizing.
 ! In: a linkage, positions, speeds. Out: results. Forces are found per unit load case;
 ! `joints_at_speed` gives them at a speed. Begin with `find_joints` here; then `find_limits` in
-! `limits_study.f90`, `begin_motion` in `motion_study.f90`.
-! Not here: balancing (`src/studies/balance`), the methods (`src/linkage`).
+! `limits_study.f90`.
+! Not here: balancing (`src/studies/balance`), motions (`src/studies/motion`), the methods
+! (`src/linkage`).
 
 !> Forces in the joints of any linkage: on every link at every pin, of guides, blocks and welds, of
 !! the drives, those that shake the ground, and all that it bears.

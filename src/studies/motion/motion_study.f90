@@ -1,3 +1,8 @@
+! src/studies/motion/ - the motion of a linkage under its motor and loads, sampled at instants.
+! In: a linkage, a `motion_request_t`. Out: a `motion_result_t`. Begin with `begin_motion` and
+! `continue_motion` here.
+! Not here: the method (`src/linkage/free`), elastic motions in time (`src/response/transient`).
+
 !> Forward dynamics: the motion of a linkage under given loads, sampled at given instants.
 module motion_study
   use drives, only: motor_drive_t
