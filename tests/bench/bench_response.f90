@@ -366,7 +366,7 @@ contains
     difference = largest_difference(found, exact)
   end subroutine find_difference
 
-  !> Writes `response.dat`, a row a case, and `response_builder.dat`. Errors: a file could not be written.
+  !> Writes `response.dat`, a row a case, and `response_parts.dat`. Errors: a file could not be written.
   subroutine write_responses(folder, notes, base, bench, error)
     character(len=*), intent(in) :: folder
     type(string_t), intent(in) :: notes(:) !! the machine
@@ -443,7 +443,7 @@ contains
     integer :: i, k
 
     names = word_list("models_and_grids slow_coordinates slow_motion applications approximate_inverses quantities rest")
-    call open_table(folder, "response_builder", .false., file, error)
+    call open_table(folder, "response_parts", .false., file, error)
     if (allocated(error)) return
     columns(1) = real_column("asked", "-")
     columns(2) = name_column("part", names)
