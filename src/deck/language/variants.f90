@@ -232,17 +232,20 @@ contains
     if (allocated(deck%variations)) names = token_texts(deck%variations%name)
   end function parameter_names
 
-  !> The value of every VARY in a variant, in the units of their cards.
+  !> The value of every VARY in a variant, in the units of their cards; 0 of a card that cannot be
+  !! read, which has none.
   pure function variant_values(deck, number) result(values)
-    type(deck_cards_t), intent(in) :: deck !! without errors
+    type(deck_cards_t), intent(in) :: deck !! with or without errors
     integer, intent(in) :: number          !! of the variant, from 1
     real(wp) :: values(size(deck%variations))
 
     integer :: choice(size(deck%variations)), k
 
     choice = choices(deck, number)
+    values = 0.0_wp
     do k = 1, size(values)
-      values(k) = deck%variations(k)%value(choice(k))
+      if (choice(k) <= size(deck%variations(k)%value)) values(k) = &
+        deck%variations(k)%value(choice(k))
     end do
   end function variant_values
 
