@@ -18,8 +18,8 @@ module memory_refusals
 
 contains
 
-  !> Ends the program unless the system still gives so much memory. What the compiler copies by itself
-  !! it does not check: an assignment of a polymorphic component stops with a signal (gfortran 12).
+  !> Ends the program unless the system still gives so much memory. Assignments of polymorphic
+  !! components do not check what they are given (gfortran 12), and stop with a signal.
   subroutine require_memory(bytes)
     integer, intent(in) :: bytes !! number
 

@@ -114,8 +114,8 @@ contains
         sample%potential = sample%potential - dot_product(linkage%pin_mass(p)*linkage%gravity + &
           linkage%pin_force(:, p), sample%pin(:, p))
       end do
-      if (size(linkage%loads) > 0) sample%potential = sample%potential + applied_potential(linkage, &
-        pose)
+      if (size(linkage%loads) > 0) sample%potential = sample%potential + &
+        applied_potential(linkage, pose)
     end associate
   end subroutine sample_state
 
