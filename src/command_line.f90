@@ -228,7 +228,7 @@ contains
     call check_name(name, error)
     if (allocated(error)) then
       error%text = "option --set: "//error%text
-    else if (scan(value, " =!#&"//achar(9)//line_feed) > 0) then
+    else if (index(value, " ") == 1 .or. scan(value, "=!#&"//achar(9)//line_feed) > 0) then
       call set_error(error, error_of_input, "option --set: '"//value// &
         "' is not one value, as a SET card has it")
     end if

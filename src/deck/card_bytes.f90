@@ -58,6 +58,7 @@ contains
     call stream%pass(token%column)
     call stream%pass(token%set_line)
     call stream%pass(token%set_column)
+    call stream%pass(token%is_computed)
   end subroutine pass_token
 
   !> Passes words, or that there is no list of them.

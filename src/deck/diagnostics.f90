@@ -3,6 +3,7 @@ module diagnostics
   use deck_source, only: file_of_line, last_line, line_origin, line_place, source_line, source_t
   use errors, only: error_of_input
   use kinds, only: wp
+  use numbers, only: number_length
   use sorting, only: ascending_order
   use text, only: append_string, character_count, is_continuation_byte, plural, string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
@@ -378,8 +379,12 @@ contains
     setting%line = place%set_line
     setting%column = place%set_column
     note = "'"//written_word(source, place)//"' is set here"
-    if (written_word(source, setting) /= place%text) note = "'"//written_word(source, place)// &
-      "' is "//place%text//", set here"
+    ! A unit is a part of the result of an expression, which is told whole.
+    if (place%is_computed .and. number_length(place%text) == 0) then
+      note = "'"//written_word(source, place)//"' is computed here"
+    else if (written_word(source, setting) /= place%text) then
+      note = "'"//written_word(source, place)//"' is "//place%text//", set here"
+    end if
     call append_place(buffer, source, setting, "note", note)
   end subroutine append_setting
 

@@ -6,7 +6,7 @@ module tokens
   private
 
   public :: token_t, is_before, earlier, later, split_words, token_part, list_items, token_texts, &
-    code_length, is_name, check_name
+    code_length, is_name, name_length, check_name
 
   !> A word and its place. In place of a `$name` it has the text of the value, the place of the
   !! `$name` and the place of the value.
@@ -18,6 +18,7 @@ module tokens
                                           !! `$name`; negative: unknown, already reported as an
                                           !! error
     integer :: set_column = 0             !! of the first character of this value
+    logical :: is_computed = .false.      !! the value is that of an expression, which begins there
   end type token_t
 
   character(len=*), parameter :: blanks = " "//achar(9)
@@ -128,7 +129,9 @@ contains
     integer, intent(in) :: before, first, last
     type(token_t) :: part
 
-    part = token_t(word%text(first:last), word%line, word%column, word%set_line, word%set_column)
+    part = token_t(word%text(first:last), word%line, word%column, word%set_line, word%set_column, &
+      word%is_computed)
+    if (word%is_computed) return
     if (word%set_line > 0) then
       part%set_column = word%set_column + before
     else if (word%set_line == 0) then
@@ -174,6 +177,15 @@ contains
 
     is_name = verify(word, name_characters) == 0
   end function is_name
+
+  !> How many leading characters of a text may be those of a name.
+  pure function name_length(text) result(length)
+    character(len=*), intent(in) :: text
+    integer :: length
+
+    length = verify(text, name_characters) - 1
+    if (length < 0) length = len(text)
+  end function name_length
 
   !> Errors: a word is not a valid name.
   pure subroutine check_name(word, error)

@@ -33,7 +33,7 @@ contains
     type(model_t), intent(out) :: model                  !! complete only if there are no errors on
                                                          !! return
 
-    call take_variant(deck_cards, number, cards)
+    call take_variant(deck_cards, number, cards, diagnostics)
     call finish_model(deck_cards, variant_values(deck_cards, number), cards, diagnostics, model)
   end subroutine read_variant
 
@@ -45,7 +45,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics    !! likewise
     type(model_t), intent(out) :: model                  !! likewise
 
-    call take_values(deck_cards, values, cards)
+    call take_values(deck_cards, values, cards, diagnostics)
     call finish_model(deck_cards, values, cards, diagnostics, model)
   end subroutine read_values
 

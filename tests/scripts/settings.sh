@@ -100,6 +100,20 @@ set_unknown() {
   run 2 --out "$out" --set thik=2 "$scratch/pieces.deck" && absent "$out" && says "did you mean 'thick'?" && says "1 | --set thik=2"
 }
 
+# The value may be an expression, which the echo keeps.
+set_expression() {
+  pieces && sed -i 's/^SET      speed \$same/SET      speed $same*$one\nSET      one 2 - 1/' "$scratch/pieces.deck"
+  run 0 --out "$out" --set 'L=$thick*50 + 5*5' --set "one=1" "$scratch/pieces.deck" && silent &&
+    sed 's/length=100 /length=105 /' "$scratch/whole.deck" >"$scratch/other.deck" && run 0 --out "$out" "$scratch/other.deck" &&
+    same_tables "$out/other" "$out/pieces" || return 1
+  grep -q '^SET L \$thick\*50 + 5\*5  *! --set on the command line; parts/../moving.part:2 has 100$' "$out/pieces/echo.deck" &&
+    grep -q '^SET one 1  *! --set on the command line; line 16 has 2 - 1$' "$out/pieces/echo.deck" &&
+    grep -q '^SET speed \$same\*\$one  *! line 15$' "$out/pieces/echo.deck" || { cat "$out/pieces/echo.deck"; return 1; }
+  mkdir -p "$scratch/again" && cp "$out/pieces/echo.deck" "$scratch/again/pieces.deck" &&
+    run 0 --out "$scratch/again/out" "$scratch/again/pieces.deck" && silent && same_tables "$out/pieces" "$scratch/again/out/pieces" &&
+    run 2 --check --set 'L=2 3' "$scratch/pieces.deck" && says "<command line>:1:11: error: unexpected '3'"
+}
+
 set_wrong_value() {
   pieces && run 2 --check --set n=2.5 "$scratch/pieces.deck" && says "pieces.deck:17:10: error: '2.5' is not a whole number" &&
     says "<command line>:1:9: note: '\$n' is set here"
@@ -118,7 +132,7 @@ malformed() {
     refused "option --set needs" --set "$word" || return 1
   done
   refused "option --set: 'a b' is not a name" --set "a b=3" &&
-    for value in " 3" "1 2" "3!" "3#" "a=b" "3&"; do
+    for value in " 3" " " "3!" "3#" "a=b" "3&"; do
       refused "option --set: '$value' is not one value" --set "L=$value" || return 1
     done
 }
@@ -187,6 +201,7 @@ check "--set overrides VARY" overridden_vary
 check "--set applies to all decks" set_for_all
 check "--set of an unknown name" set_unknown
 check "--set of a wrong value" set_wrong_value
+check "--set of an expression" set_expression
 check "--set malformed" malformed
 check "--set twice" refused "option --set gives 'l' twice: L=1 and l=2" --set L=1 --set l=2
 check "--set without its value" eval 'run 2 --set && says "option --set needs a value"'

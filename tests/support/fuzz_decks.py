@@ -27,7 +27,7 @@ UNITS = ["m", "mm", "cm", "in", "ft", "kg", "g", "tonne", "lbm", "slug", "slinch
          "N*m", "lbf*in", "kg*m2", "kg*mm2", "N*m*s", "N*m*s/rad", "N*m/rpm"]
 PIECES = [b"\0", b"\t", b"\r", b"\n", b"\r\n", b"&", b" & \n", b"!", b"#", b"=", b"==", b",", b",,", b"$", b"$x", b'"', b"'", b"\\",
           b"\xc3\xb6", b"\xef\xbb\xbf", b"\xe2\x82\xac", b"\xff\xfe", b"\x80", b"\x1b[31m", b"\x7f", b"\xf0\x9f\x94\xa7", b" "*300,
-          b"x"*5000, b"\n"*50, b"\nINCLUDE part.deck\n", b"\nINCLUDE d.deck\n", b"\nSET x 1\n", b"\nVARY x 1 2\n", b"$half", b"&\n"*20, b"%s%n", b"{", b"()", b"END\n", b"NaN", b"*****"]
+          b"x"*5000, b"\n"*50, b"\nINCLUDE part.deck\n", b"\nINCLUDE d.deck\n", b"\nSET x 1\n", b"\nVARY x 1 2\n", b"$half", b"\nSET x 2*(3 - $half)**2\n", b"**", b"sqrt(", b"-$half*", b"&\n"*20, b"%s%n", b"{", b"()", b"END\n", b"NaN", b"*****"]
 # Reports that a sound deck with beams asks for, and those that need a card of their own or keys; all others fit any deck.
 BEAM_REPORTS = ["kinematics", "inertia", "mesh", "frequencies", "shapes", "branches"]
 OWN_CARD_REPORTS = ["motion", "transient", "summary"]
@@ -274,6 +274,11 @@ def sound_deck(dice):
     return ("\n".join(cards) + "\n").encode()
 
 
+# Arithmetic in SET that gives the value, to a rounding, or nothing that a card takes.
+SUMS = ["2*{value}/2", "{value}*0.5/0.5", "3*{value} - 2*{value}", "sqrt({value}*{value})", "{value}*(sin(30deg) + 0.5)", "-(-{value})",
+        "hypot(3, 4)/5*{value}", "max({value}, {value})", "{number}*1{unit}", "{value}/0", "{value} + 1", "1/{value}", "{value}**2", "2*pi*{value}"]
+
+
 def with_names(dice, cards):
     """Puts `$name`s in place of values, with SET and VARY cards that give them."""
     places = [i for i, card in enumerate(cards) if "=" in card and not card.startswith("TITLE")]
@@ -288,6 +293,9 @@ def with_names(dice, cards):
         if found and dice.chance(0.4):
             unit = value[found.end():]
             cards.append(f"VARY {name} " + " ".join(f"{float(found[0])*factor:.9g}{unit}" for factor in (1.0, 1.01, 0.98)[:1 + dice.below(3)]))
+        elif found and dice.chance(0.5):
+            unit = value[found.end():]
+            cards.append(f"SET {name} " + dice.choice(SUMS).format(value=value, number=found[0], unit=unit))
         else:
             cards.append(f"SET {name} {value}")
 

@@ -225,6 +225,7 @@ contains
           dimension_name(dimension))
       else
         call read_unit(word%text(length + 1:), dimension, measure, error)
+        if (allocated(error)) error%text = error%text//difference_hint(word)
         if (.not. allocated(error) .and. .not. serves_for(measure, dimension)) &
           call set_error(error, error_of_input, wrong_unit(measure, dimension))
         place = token_part(word, length + 1, len(word%text))
@@ -254,6 +255,21 @@ contains
     if (digits == 0 .or. digits == 3) return
     hint = " (did you mean '"//word(:comma - 1)//"."//word(comma + 1:)//"'?)"
   end function comma_hint
+
+  !> For a value of SET that would be a difference with blanks in it: that it needs them. Else an
+  !! empty text.
+  pure function difference_hint(word) result(hint)
+    type(token_t), intent(in) :: word !! begins with a number
+    character(len=:), allocatable :: hint
+
+    integer :: sign
+
+    hint = ""
+    sign = index(word%text, "-", back=.true.)
+    if (word%set_line <= 0 .or. sign < 2) return
+    if (number_length(word%text(sign + 1:)) > 0) hint = " (a difference has blanks: "// &
+      word%text(:sign - 1)//" - "//word%text(sign + 1:)//")"
+  end function difference_hint
 
   !> For a number with a dash in place of its minus sign, as word processors write it: that it has
   !! one. Else an empty text.

@@ -46,7 +46,8 @@ module card_table
       "those of results"), &
     card_kind_t("INCLUDE", least=1, most=1, pattern="INCLUDE file", &
       help="the cards of another file"), &
-    card_kind_t("SET", least=2, most=2, pattern="SET name value", help="a value for $name"), &
+    card_kind_t("SET", least=2, most=many, pattern="SET name value", &
+      help="a value for $name, or arithmetic: $track - 2*40mm*sin(10deg)"), &
     card_kind_t("TABLE", least=2, most=many, pattern="TABLE name unit unit ... number number ...", &
       help="columns of numbers by name: their units, then row by row; or a file, table=name"), &
     card_kind_t("VARY", is_list=.true., least=2, most=many, &

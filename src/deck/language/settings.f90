@@ -5,16 +5,17 @@ module settings
   use deck_source, only: append_source, line_count, source_from_text, source_t
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use errors, only: error_t
+  use expressions, only: find_names, is_expression, operand_t
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: nearest_word, suggestion
-  use text, only: character_count, same_word, string_t
-  use tokens, only: is_name, token_t, token_texts
-  use units, only: dimension_none, read_unit, unit_t
+  use text, only: joined, same_word, string_t
+  use tokens, only: is_name, split_words, token_t, token_texts
+  use units, only: dimension_none, read_unit, unit_system_t, unit_t
   implicit none (type, external)
   private
 
   public :: setting_t, settings_t, read_settings, look_up_setting, warn_of_unused_settings, &
-    options_path
+    find_references, written_value, options_path
 
   !> In place of a path: the lines of `--set` among those of the source.
   character(len=*), parameter :: options_path = "<command line>"
@@ -22,28 +23,36 @@ module settings
   !> A name and where its value comes from.
   type :: setting_t
     type(token_t) :: name              !! on its card
-    type(token_t) :: value             !! of SET or `--set`, possibly a `$name` itself; without a
-                                       !! line if it cannot be read
+    type(token_t) :: value             !! of SET or `--set`, possibly a `$name` itself, or the first
+                                       !! word of an expression; without a line if it cannot be read
+    type(token_t), allocatable :: words(:) !! of an expression; not allocated: it is none
+    integer, allocatable :: uses(:)    !! numbers of the settings whose `$name`s the value has; 0:
+                                       !! unknown
     integer :: card = 0                !! number of its card
     logical :: is_varied = .false.     !! by VARY
+    logical :: varies = .false.        !! by VARY, or because something that it uses does
     logical :: is_overridden = .false. !! by `--set`
     logical :: is_used = .false.       !! a card or another setting uses it
     integer :: root = 0                !! number of the setting at the end of its chain of `$name`s,
-                                       !! often itself; 0: none
+                                       !! often itself; 0: it has no value, after an error
   end type setting_t
 
   type :: settings_t
     type(setting_t), allocatable :: list(:) !! (settings) in the order of the deck
     type(name_index_t) :: names             !! of the list
+    type(unit_system_t) :: system           !! units of bare numbers
+    integer, allocatable :: order(:)        !! numbers of the settings, each behind those it uses
+    type(operand_t), allocatable :: operands(:) !! (settings) the values that do not vary; of others
+                                            !! and after an error, without a line
   end type settings_t
 
 contains
 
-  !> Reads the SET cards and the names on VARY cards, then applies the command line, which overrides
-  !! them.
+  !> Reads the SET cards and the names on VARY cards, then applies the command line, which
+  !! overrides them. Their values are found by `find_fixed_values`.
   !!
   !! Errors: a card of the wrong form, an invalid name, a name given twice, an option that names no
-  !! setting, a value that is an unknown `$name` or refers to itself.
+  !! setting.
   pure subroutine read_settings(cards, options, source, diagnostics, settings)
     type(card_t), intent(in) :: cards(:)              !! of the deck
     type(string_t), intent(in) :: options(:)          !! of the command line, each `name=value`
@@ -73,11 +82,10 @@ contains
       end associate
     end do
     call take_options(options, source, diagnostics, settings)
-    call find_roots(diagnostics, settings)
   end subroutine read_settings
 
-  !> Reads `SET name value`, or the name on `VARY name …`, whose values are read once all names are
-  !! known.
+  !> Reads `SET name value`, `SET name expression`, or the name on `VARY name …`, whose values are
+  !! read once all names are known.
   pure subroutine read_setting(card, number, is_varied, diagnostics, list, count)
     type(card_t), intent(in) :: card
     integer, intent(in) :: number !! of the card
@@ -97,7 +105,9 @@ contains
     list(count)%card = number
     list(count)%is_varied = is_varied
     list(count)%value = token_t("", 0, 0)
-    if (fine .and. .not. is_varied) list(count)%value = card%words(2)
+    ! Its words are no value, if the card has an equals sign.
+    if (fine .and. .not. is_varied .and. size(card%entries) == 0) call take_value(card%words(2:), &
+      list(count))
   end subroutine read_setting
 
   !> Replaces values in the deck by those of the command line.
@@ -108,8 +118,9 @@ contains
     type(settings_t), intent(inout) :: settings
 
     character(len=*), parameter :: option = "--set "
+    type(token_t), allocatable :: words(:)
     character(len=:), allocatable :: lines
-    integer :: i, number, used, first, sign
+    integer :: i, number, first
 
     if (size(options) == 0) return
     first = line_count(source)
@@ -119,86 +130,69 @@ contains
     end do
     call append_source(source, source_from_text(options_path, lines), 0)
     do i = 1, size(options)
-      sign = index(options(i)%text, "=")
-      associate (name => options(i)%text(:sign - 1))
-        number = find_name(settings%names, name)
-        if (number == 0) then
-          call add_error(diagnostics, token_t(name, first + i, len(option) + 1), &
-            source%path//" has no SET or VARY '"//name//"'"//suggestion(name, settings%names%name))
-          cycle
-        end if
-        ! The deck's value is overridden here, but a `$name` in it still counts as used.
-        used = find_name(settings%names, settings%list(number)%value%text(2:))
-        if (used > 0 .and. index(settings%list(number)%value%text, "$") == 1) &
-          settings%list(used)%is_used = .true.
-        settings%list(number)%is_varied = .false.
-        settings%list(number)%is_overridden = .true.
-        settings%list(number)%value = token_t(options(i)%text(sign + 1:), first + i, &
-          len(option) + 1 + character_count(options(i)%text(:sign)))
-      end associate
+      ! The option, the name and the equals sign come before the value.
+      words = split_words(option//options(i)%text, first + i)
+      number = find_name(settings%names, words(2)%text)
+      if (number == 0) then
+        call add_error(diagnostics, words(2), source%path//" has no SET or VARY '"// &
+          words(2)%text//"'"//suggestion(words(2)%text, settings%names%name))
+        cycle
+      end if
+      call mark_as_used(settings, settings%list(number))
+      settings%list(number)%is_varied = .false.
+      settings%list(number)%is_overridden = .true.
+      call take_value(words(4:), settings%list(number))
     end do
   end subroutine take_options
 
-  !> Follows values that are a `$name` themselves to the setting with the text, or to the VARY.
-  pure subroutine find_roots(diagnostics, settings)
-    type(diagnostics_t), intent(inout) :: diagnostics
+  !> Takes the words of a value: one, or an expression.
+  pure subroutine take_value(words, setting)
+    type(token_t), intent(in) :: words(:)
+    type(setting_t), intent(inout) :: setting
+
+    setting%value = words(1)
+    if (allocated(setting%words)) deallocate (setting%words)
+    if (is_expression(words)) setting%words = words
+  end subroutine take_value
+
+  !> The `$name`s in a value.
+  pure subroutine find_references(setting, names)
+    type(setting_t), intent(in) :: setting              !! of SET or VARY
+    type(token_t), allocatable, intent(out) :: names(:) !! in their order
+
+    if (allocated(setting%words)) then
+      call find_names(setting%words, names)
+    else if (index(setting%value%text, "$") == 1) then
+      allocate (names(1))
+      names(1) = setting%value
+    else
+      allocate (names(0))
+    end if
+  end subroutine find_references
+
+  !> Marks what the deck's own value of an overridden setting uses: it counts as used.
+  pure subroutine mark_as_used(settings, setting)
     type(settings_t), intent(inout) :: settings
+    type(setting_t), intent(in) :: setting
 
-    type(token_t) :: value
-    integer :: next(size(settings%list)), visit(size(settings%list)), i, at, root
+    type(token_t), allocatable :: names(:)
+    integer :: i, used
 
-    do i = 1, size(settings%list)
-      next(i) = 0
-      value = settings%list(i)%value
-      if (index(value%text, "$") == 0) cycle
-      call look_up_setting(value, settings, diagnostics, next(i))
-      if (next(i) == 0) next(i) = -1
+    call find_references(setting, names)
+    do i = 1, size(names)
+      used = find_name(settings%names, names(i)%text(2:))
+      if (used > 0) settings%list(used)%is_used = .true.
     end do
-    visit = 0
-    do i = 1, size(settings%list)
-      at = i
-      do while (next(at) > 0 .and. visit(at) == 0)
-        visit(at) = i
-        at = next(at)
-      end do
-      if (next(at) > 0 .and. visit(at) == i) then
-        call add_error(diagnostics, settings%list(at)%value, "'"//settings%list(at)%name%text// &
-          "' is defined by itself: "//chain_text(settings, next, at))
-        root = 0
-      else if (next(at) > 0) then
-        root = settings%list(at)%root
-      else
-        root = at
-        if (next(at) < 0 .or. (settings%list(at)%value%line == 0 .and. &
-          .not. settings%list(at)%is_varied)) root = 0
-        settings%list(at)%root = root
-      end if
-      ! All settings on the way have the same root.
-      at = i
-      do while (next(at) > 0 .and. visit(at) == i)
-        visit(at) = huge(at)
-        settings%list(at)%root = root
-        at = next(at)
-      end do
-    end do
-  end subroutine find_roots
+  end subroutine mark_as_used
 
-  !> `$a -> $b -> $a`
-  pure function chain_text(settings, next, first) result(chain)
-    type(settings_t), intent(in) :: settings
-    integer, intent(in) :: next(:), first
-    character(len=:), allocatable :: chain
+  !> The value of a setting as it is written.
+  pure function written_value(setting) result(text)
+    type(setting_t), intent(in) :: setting !! of SET or `--set`
+    character(len=:), allocatable :: text
 
-    integer :: at
-
-    chain = "$"//settings%list(first)%name%text
-    at = first
-    do
-      at = next(at)
-      chain = chain//" -> $"//settings%list(at)%name%text
-      if (at == first) return
-    end do
-  end function chain_text
+    text = setting%value%text
+    if (allocated(setting%words)) text = joined(token_texts(setting%words), " ")
+  end function written_value
 
   !> Finds the setting that a `$name` refers to, and marks it as used.
   !!
@@ -218,8 +212,8 @@ contains
       return
     else if (index(word%text, "$") /= 1 .or. .not. is_name(word%text(2:))) then
       call add_error(diagnostics, word, &
-        "'"//word%text//"' joins something to a '$'; '$name' is a whole value: write its sign "// &
-        "and unit in the value, as in SET name -100mm")
+        "'"//word%text//"' joins something to a '$'; '$name' is a whole value: arithmetic "// &
+        "stands on SET cards, as in SET half -0.5*$name")
       return
     end if
     number = find_name(settings%names, word%text(2:))
@@ -228,6 +222,7 @@ contains
       return
     end if
     hint = joined_unit(word%text(2:), settings)
+    if (len(hint) == 0) hint = joined_minus(word%text(2:), settings)
     nearest = nearest_word(word%text(2:), settings%names%name)
     if (len(hint) == 0 .and. nearest > 0) hint = " (did you mean '$"// &
       settings%list(nearest)%name%text//"'?)"
@@ -256,6 +251,24 @@ contains
       return
     end do
   end function joined_unit
+
+  !> The hint for a name that is a known one followed by a minus sign; else empty.
+  pure function joined_minus(name, settings) result(hint)
+    character(len=*), intent(in) :: name
+    type(settings_t), intent(in) :: settings
+    character(len=:), allocatable :: hint
+
+    integer :: length
+
+    hint = ""
+    do length = len(name) - 1, 1, -1
+      if (name(length + 1:length + 1) /= "-") cycle
+      if (find_name(settings%names, name(:length)) == 0) cycle
+      hint = "; names hold minus signs: a blank ends this one, '$"//name(:length)//" "// &
+        name(length + 1:)//"'"
+      return
+    end do
+  end function joined_minus
 
   !> Adds a warning for each SET that nothing uses, as a rule a mistake. After errors it adds none:
   !! a wrong `$name` may be the reason.

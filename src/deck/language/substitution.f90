@@ -1,11 +1,15 @@
 !> Substitution of values for `$name` on cards.
 module substitution
   use cards, only: card_t, entry_t
-  use diagnostics, only: diagnostics_t
+  use diagnostics, only: add_error, diagnostics_t
+  use errors, only: error_of_writing
+  use expressions, only: operand_t
+  use quantities, only: kind_text
   use settings, only: look_up_setting, settings_t
   use text, only: same_word
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use tokens, only: list_items, token_t
+  use units, only: unit_system_t
   implicit none (type, external)
   private
 
@@ -73,15 +77,34 @@ contains
     if (number > 0) root = settings%list(number)%root
     if (root == 0) then
       word%set_line = -1
-    else if (settings%list(root)%is_varied) then
+    else if (settings%list(root)%varies) then
       if (count == size(slots)) slots = [slots, slots]
       count = count + 1
       slots(count) = slot
       slots(count)%setting = root
     else
-      call set_word(word, settings%list(root)%value)
+      call put_operand(word, settings%operands(root), settings%system, diagnostics)
     end if
   end subroutine substitute_word
+
+  !> Gives a word the text of a value. One without a line is unknown, and so is the word then.
+  !!
+  !! Errors: its unit cannot stand on a card.
+  pure subroutine put_operand(word, operand, system, diagnostics)
+    type(token_t), intent(inout) :: word
+    type(operand_t), intent(in) :: operand
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    if (operand%word%line > 0) then
+      call set_word(word, operand%word)
+      if (len(operand%word%text) > 0) return
+      word%set_line = 0
+      call add_error(diagnostics, word, "this is "//kind_text(operand%quantity, system)// &
+        ", which no card takes", operand%word, "it is computed here", kind=error_of_writing)
+    end if
+    word%set_line = -1
+  end subroutine put_operand
 
   !> Gives a word the text of a value, and the value's place as the place where it is set.
   pure subroutine set_word(word, value)
@@ -91,6 +114,7 @@ contains
     word%text = value%text
     word%set_line = value%line
     word%set_column = value%column
+    word%is_computed = value%is_computed
   end subroutine set_word
 
   !> As `substitute_word`, for the value of a key, which may be a list.
@@ -134,21 +158,31 @@ contains
     entry%value%text = buffer_text(buffer)
   end subroutine join_items
 
-  !> Puts the value of a variant into a slot.
-  pure subroutine put_value(cards, slot, value)
-    type(card_t), intent(inout) :: cards(:) !! of the deck
-    type(slot_t), intent(in) :: slot        !! from `substitute`
-    type(token_t), intent(in) :: value      !! its text, and its place on the VARY card
+  !> Puts the value of a variant into a slot. One without a line is unknown, so that no further
+  !! error is reported for it.
+  !!
+  !! Errors: its unit cannot stand on a card.
+  pure subroutine put_value(cards, slot, value, system, diagnostics)
+    type(card_t), intent(inout) :: cards(:)           !! of the deck
+    type(slot_t), intent(in) :: slot                  !! from `substitute`
+    type(operand_t), intent(in) :: value              !! its text, and the place where it is set
+    type(unit_system_t), intent(in) :: system         !! units of bare numbers
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
 
     associate (card => cards(slot%card))
       if (slot%word > 0) then
-        call set_word(card%words(slot%word), value)
-      else if (slot%item > 0) then
-        call set_word(card%entries(slot%entry)%items(slot%item), value)
-        call join_items(card%entries(slot%entry))
-      else
-        call set_word(card%entries(slot%entry)%value, value)
+        call put_operand(card%words(slot%word), value, system, diagnostics)
+        return
       end if
+      associate (entry => card%entries(slot%entry))
+        if (slot%item > 0) then
+          call put_operand(entry%items(slot%item), value, system, diagnostics)
+          call join_items(entry)
+          entry%value%set_line = merge(-1, 0, any(entry%items%set_line < 0))
+        else
+          call put_operand(entry%value, value, system, diagnostics)
+        end if
+      end associate
     end associate
   end subroutine put_value
 

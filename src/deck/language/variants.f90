@@ -4,9 +4,11 @@ module variants
   use cards, only: card_t
   use deck_source, only: source_t
   use diagnostics, only: add_error, diagnostics_t, has_errors
+  use expressions, only: operand_t
   use kinds, only: long, wp
   use numbers, only: shortest_text
   use report_kinds, only: report_kind_t
+  use setting_values, only: find_fixed_values, find_varying_values, mark_uses
   use settings, only: read_settings, settings_t, warn_of_unused_settings
   use substitution, only: put_value, slot_t, substitute
   use text, only: same_word, string_t, to_string
@@ -26,8 +28,7 @@ module variants
     type(variation_t), allocatable :: variations(:) !! (variations) in the order of the deck; the
                                                     !! last one varies fastest
     type(card_t), allocatable, private :: fixed(:)  !! (cards) with the values of SET in place
-    type(slot_t), allocatable, private :: slots(:)  !! (slots) where the values of VARY go
-    integer, allocatable, private :: source_of(:)   !! (slots) the number in `variations`; 0: none
+    type(slot_t), allocatable, private :: slots(:)  !! (slots) where values go that vary
   end type deck_cards_t
 
   integer, parameter :: most_variants = 1000000
@@ -36,8 +37,9 @@ contains
 
   !> Reads the SET and VARY cards of a deck, and finds every `$name`.
   !!
-  !! Errors: those of `read_settings`, `substitute` and `read_variation`; a VARY that no card uses
-  !! or whose values vary themselves; too many variants. Warnings: a SET that nothing uses.
+  !! Errors: those of `read_settings`, `find_fixed_values`, `substitute` and `read_variation`; a
+  !! VARY that no card uses or whose values vary themselves; too many variants. Warnings: a SET that
+  !! nothing uses.
   pure subroutine read_deck_cards(cards, options, source, reports, diagnostics, deck)
     type(card_t), allocatable, intent(inout) :: cards(:) !! moved into `deck`
     type(string_t), intent(in) :: options(:)             !! of the command line, each `name=value`
@@ -49,8 +51,9 @@ contains
 
     deck%reports = reports
     call move_alloc(cards, deck%written)
-    allocate (deck%variations(0), deck%slots(0), deck%source_of(0))
+    allocate (deck%variations(0), deck%slots(0))
     call read_settings(deck%written, options, source, diagnostics, deck%settings)
+    call find_fixed_values(deck%written, diagnostics, deck%settings)
     deck%fixed = deck%written
     call substitute(deck%fixed, deck%settings, diagnostics, deck%slots)
     call warn_of_unused_settings(deck%settings, diagnostics)
@@ -67,11 +70,14 @@ contains
     integer(long) :: variants
     integer :: i, k, count
     logical :: all_found !! whether every `$name` so far is known
+    logical :: is_used(size(deck%settings%list)) !! by a card, also by way of other settings
 
     all_found = .not. has_errors(diagnostics)
     call refuse_varied_variations(deck, diagnostics)
     allocate (list(size(deck%settings%list)))
-    deck%source_of = spread(0, 1, size(deck%slots))
+    is_used = .false.
+    is_used(deck%slots%setting) = .true.
+    call mark_uses(deck%settings, is_used)
     count = 0
     variants = 1
     do i = 1, size(list)
@@ -80,20 +86,16 @@ contains
         count = count + 1
         call read_variation(deck%fixed(setting%card), i, deck%fixed, deck%reports, diagnostics, &
           list(count))
-        if (.not. any(deck%slots%setting == i) .and. all_found) then
+        if (.not. is_used(i) .and. all_found) then
           call add_error(diagnostics, setting%name, "no card uses '$"//setting%name%text// &
             "': all variants would be the same")
         end if
-        where (deck%slots%setting == i) deck%source_of = count
         variants = min(variants*max(1, size(list(count)%value)), most_variants + 1_long)
         if (variants > most_variants .and. .not. has_errors(diagnostics)) then
           call add_error(diagnostics, setting%name, "there are more than "// &
             to_string(most_variants)//" variants")
         end if
       end associate
-    end do
-    do k = 1, size(deck%slots)
-      if (deck%source_of(k) == 0) call mark_unknown(deck%fixed, deck%slots(k))
     end do
     deallocate (deck%variations)
     allocate (deck%variations(count))
@@ -138,29 +140,33 @@ contains
   !> The cards of a variant. Given the cards of another variant of the same deck, it only replaces
   !! the values of VARY.
   !!
-  !! Slots of a variation without values, already reported as an error, are marked as unknown.
-  pure subroutine take_variant(deck, number, cards)
+  !! Errors: arithmetic that these values do not allow. Slots of a variation without values, already
+  !! reported as an error, are marked as unknown.
+  pure subroutine take_variant(deck, number, cards, diagnostics)
     type(deck_cards_t), intent(in) :: deck               !! with or without errors
     integer, intent(in) :: number                        !! of the variant, from 1
     type(card_t), allocatable, intent(inout) :: cards(:) !! (cards) not allocated, or of another
                                                          !! variant
+    type(diagnostics_t), intent(inout) :: diagnostics    !! errors are added
 
     type(token_t) :: words(size(deck%variations))
     integer :: choice(size(deck%variations)), k
 
     choice = choices(deck, number)
     do k = 1, size(words)
+      words(k) = token_t("", 0)
       if (size(deck%variations(k)%value) > 0) call get_value_word(deck%variations(k), choice(k), &
         words(k))
     end do
-    call put_words(deck, words, cards)
+    call put_words(deck, words, cards, diagnostics)
   end subroutine take_variant
 
   !> Puts any values of the VARY cards in place.
-  pure subroutine take_values(deck, values, cards)
+  pure subroutine take_values(deck, values, cards, diagnostics)
     type(deck_cards_t), intent(in) :: deck               !! without errors
     real(wp), intent(in) :: values(:)                    !! (parameters) in the units of their cards
     type(card_t), allocatable, intent(inout) :: cards(:) !! (cards) as for `take_variant`
+    type(diagnostics_t), intent(inout) :: diagnostics    !! likewise
 
     type(token_t) :: words(size(values))
     integer :: k
@@ -168,27 +174,25 @@ contains
     do k = 1, size(values)
       words(k) = value_word(deck%variations(k), values(k))
     end do
-    call put_words(deck, words, cards)
+    call put_words(deck, words, cards, diagnostics)
   end subroutine take_values
 
   !> Puts a word of every VARY card in place.
-  pure subroutine put_words(deck, words, cards)
+  pure subroutine put_words(deck, words, cards, diagnostics)
     type(deck_cards_t), intent(in) :: deck
-    type(token_t), intent(in) :: words(:)                !! (variations)
+    type(token_t), intent(in) :: words(:)                !! (variations) without a line: unknown
     type(card_t), allocatable, intent(inout) :: cards(:) !! (cards) as for `take_variant`
+    type(diagnostics_t), intent(inout) :: diagnostics
 
+    type(operand_t), allocatable :: values(:)
     integer :: k
 
     if (.not. allocated(cards)) cards = deck%fixed
+    if (size(deck%slots) == 0) return
+    call find_varying_values(deck%settings, deck%variations%setting, words, diagnostics, values)
     do k = 1, size(deck%slots)
-      associate (from => deck%source_of(k))
-        if (from == 0) cycle
-        if (size(deck%variations(from)%value) > 0) then
-          call put_value(cards, deck%slots(k), words(from))
-        else
-          call mark_unknown(cards, deck%slots(k))
-        end if
-      end associate
+      call put_value(cards, deck%slots(k), values(deck%slots(k)%setting), deck%settings%system, &
+        diagnostics)
     end do
   end subroutine put_words
 

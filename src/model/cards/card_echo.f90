@@ -8,9 +8,10 @@ module card_echo
   use numbers, only: number_length
   use report_kinds, only: kind_named, report_kind_t
   use response_cards, only: is_response_form
-  use settings, only: setting_t
-  use text, only: lower_case, same_word, upper_case
+  use settings, only: setting_t, written_value
+  use text, only: joined, lower_case, same_word, upper_case
   use text_buffer, only: append_text, buffer_text, text_buffer_t
+  use tokens, only: token_texts
   use variants, only: deck_cards_t
   implicit none (type, external)
   private
@@ -59,12 +60,12 @@ contains
     type(source_t), intent(in) :: source
     type(echo_line_t) :: line
 
-    line%text = "SET "//setting%name%text//" "//setting%value%text
+    line%text = "SET "//setting%name%text//" "//written_value(setting)
     line%origin = "--set on the command line; "//line_origin(source, card%keyword%line)//" has "
     if (same_word(card%keyword%text, "VARY")) then
       line%origin = line%origin//card_text(card)
     else
-      line%origin = line%origin//card%words(2)%text
+      line%origin = line%origin//joined(token_texts(card%words(2:)), " ")
     end if
   end function overridden_line
 
