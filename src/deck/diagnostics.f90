@@ -379,12 +379,10 @@ contains
     setting%line = place%set_line
     setting%column = place%set_column
     note = "'"//written_word(source, place)//"' is set here"
-    ! A unit is a part of the result of an expression, which is told whole.
-    if (place%is_computed .and. number_length(place%text) == 0) then
-      note = "'"//written_word(source, place)//"' is computed here"
-    else if (written_word(source, setting) /= place%text) then
-      note = "'"//written_word(source, place)//"' is "//place%text//", set here"
-    end if
+    ! The unit alone, as a part of a result, does not say what it is.
+    if (written_word(source, setting) /= place%text .and. .not. (place%is_computed .and. &
+      number_length(place%text) == 0)) note = "'"//written_word(source, place)//"' is "// &
+      place%text//", set here"
     call append_place(buffer, source, setting, "note", note)
   end subroutine append_setting
 

@@ -18,7 +18,8 @@ module tokens
                                           !! `$name`; negative: unknown, already reported as an
                                           !! error
     integer :: set_column = 0             !! of the first character of this value
-    logical :: is_computed = .false.      !! the value is that of an expression, which begins there
+    logical :: is_computed = .false.      !! the value does not stand there as it is: an expression
+                                          !! begins there, or a range
   end type token_t
 
   character(len=*), parameter :: blanks = " "//achar(9)

@@ -36,14 +36,14 @@ ranks() {
 # Five links' lengths by forty of another one; a variant that does not close.
 study_deck() {
   beam_deck "VARY b 270 272 275 280 900" "VARY c 255 to 275 step $1" "CRANK 0 to 350 step 10" "SPEED 0 20" "REPORT frequencies" \
-    "REPORT reactions" | sed 's/length=279.4/length=$b/; s/length=266.7/length=$c/'
+    "REPORT reactions" "SET d \$c + (\$b - \$b)/2" | sed 's/length=279.4/length=$b/; s/length=266.7/length=$d/'
 }
 sweep_deck() {
   beam_deck "CRANK 0 to 360 step $1" "SPEED 0 20" "REPORT frequencies" "REPORT shapes crank=0,90" "REPORT branches"
 }
 # Each variant alone would keep all threads busy.
 long_deck() {
-  beam_deck "VARY b 270 275 280" "CRANK 0 to 360 step 0.2" "REPORT frequencies" | sed 's/length=279.4/length=$b/'
+  beam_deck "VARY b table=long" "TABLE long mm 280 270 275" "CRANK 0 to 360 step 0.2" "REPORT frequencies" | sed 's/length=279.4/length=$b/'
 }
 # More than 100,000 rows: positions come in blocks.
 blocks_deck() {

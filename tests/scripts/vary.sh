@@ -261,3 +261,64 @@ assert [row[1:] for row in varied if float(row[0]) == 270.85] == plain, "rows di
 END_OF_PYTHON
 }
 check "ranges have the decimals as written by hand" decimals
+
+# VARY with the table of a file: a row is a variant, in the order of the rows, whose rows are those of the plain decks above.
+cases_deck() {
+  mkdir -p "$scratch/cases"
+  printf 'units mm mm  ! of b and c\n280.5 260\n\n270 280mm\n270 $least ! from the deck\n' >"$scratch/cases/cases.dat"
+  { varied "VARY b c table=cases/cases.dat" "SET least 250mm + 10mm" && all_reports; } >"$scratch/cases.deck"
+}
+
+# rows_of FOLDER COLUMNS DECK...: every table has, behind so many columns, the rows of the plain decks, one after the other.
+rows_of() {
+  python3 -B - "$@" <<'END_OF_PYTHON'
+import csv, glob, os, sys
+folder, columns, decks = sys.argv[1], int(sys.argv[2]), sys.argv[3:]
+tables = sorted(os.path.basename(path) for path in glob.glob(os.path.join(folder, "*.csv")))
+assert len(tables) == 7, tables
+def rows(*path):
+    with open(os.path.join(*path), encoding="utf-8", newline="") as file:
+        return list(csv.reader(file))[1:]
+for table in tables:
+    wanted = [row for deck in decks for row in rows(deck, table)]
+    assert [row[columns:] for row in rows(folder, table)] == wanted, table
+END_OF_PYTHON
+}
+
+cases() {
+  cases_deck
+  run 0 --check "$scratch/cases.deck" && silent && run 0 --out "$out" --threads 2 --format csv "$scratch/cases.deck" &&
+    rows_of "$out/cases" 2 "$scratch/plain/280.5_260" "$scratch/plain/270_280" "$scratch/plain/270_260" || return 1
+  mkdir -p "$scratch/alone" && cp "$out/cases/echo.deck" "$scratch/alone/cases.deck" &&
+    run 0 --out "$scratch/alone/out" --format csv "$scratch/alone/cases.deck" && same_tables "$out/cases" "$scratch/alone/out/cases"
+}
+check "variants from the table of a file" cases
+
+cases_in_parts() {
+  cases_deck
+  for part in 1 2 3; do
+    run 0 --out "$scratch/parts" --part "$part/3" "$scratch/cases.deck" || return 1
+  done
+  run 0 --out "$scratch/parts" --format csv --join "$scratch/cases.deck" && same_tables_but_parts "$out/cases" "$scratch/parts/cases"
+}
+same_tables_but_parts() {
+  diff -rq -x run.log -x echo.deck -x summary.json -x '*.part*of*' "$1" "$2"
+}
+check "variants from a table in parts" cases_in_parts
+
+# The others go on as the table has them; the echo has a dash in place of the name.
+cases_overridden() {
+  cases_deck
+  run 0 --out "$scratch/set" --format csv --set c=260mm "$scratch/cases.deck" && silent &&
+    rows_of "$scratch/set/cases" 1 "$scratch/plain/280.5_260" "$scratch/plain/270_260" "$scratch/plain/270_260" || return 1
+  grep -q '^VARY b - table=cases/cases.dat  *! line ' "$scratch/set/cases/echo.deck" &&
+    grep -q '^SET c 260mm  *! --set on the command line' "$scratch/set/cases/echo.deck" || { cat "$scratch/set/cases/echo.deck"; return 1; }
+  mkdir -p "$scratch/alone" && cp "$scratch/set/cases/echo.deck" "$scratch/alone/cases.deck" &&
+    run 0 --out "$scratch/alone/set" --format csv "$scratch/alone/cases.deck" && silent &&
+    same_tables "$scratch/set/cases" "$scratch/alone/set/cases" || return 1
+  run 0 --out "$scratch/set" --format csv --set c=260mm --set b=270 "$scratch/cases.deck" && silent &&
+    rows_of "$scratch/set/cases" 0 "$scratch/plain/270_260" || return 1
+  cp "$scratch/set/cases/echo.deck" "$scratch/alone/cases.deck" && run 0 --out "$scratch/alone/set" --format csv "$scratch/alone/cases.deck" &&
+    silent && same_tables "$scratch/set/cases" "$scratch/alone/set/cases"
+}
+check "--set of names that a table varies" cases_overridden

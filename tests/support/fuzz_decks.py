@@ -292,7 +292,12 @@ def with_names(dice, cards):
         found = re.match(NUMBER.pattern.decode(), value)
         if found and dice.chance(0.4):
             unit = value[found.end():]
-            cards.append(f"VARY {name} " + " ".join(f"{float(found[0])*factor:.9g}{unit}" for factor in (1.0, 1.01, 0.98)[:1 + dice.below(3)]))
+            numbers = [f"{float(found[0])*factor:.9g}" for factor in (1.0, 1.01, 0.98)[:1 + dice.below(3)]]
+            if dice.chance(0.3):
+                cards.append(f"VARY {name} table=of_{name}")
+                cards.append(f"TABLE of_{name} {unit or '-'} " + " ".join(numbers))
+            else:
+                cards.append(f"VARY {name} " + " ".join(number + unit for number in numbers))
         elif found and dice.chance(0.5):
             unit = value[found.end():]
             cards.append(f"SET {name} " + dice.choice(SUMS).format(value=value, number=found[0], unit=unit))

@@ -50,8 +50,8 @@ module card_table
       help="a value for $name, or arithmetic: $track - 2*40mm*sin(10deg)"), &
     card_kind_t("TABLE", least=2, most=many, pattern="TABLE name unit unit ... number number ...", &
       help="columns of numbers by name: their units, then row by row; or a file, table=name"), &
-    card_kind_t("VARY", is_list=.true., least=2, most=many, &
-      pattern="VARY name a to b step s, or VARY name and a list of values", &
+    card_kind_t("VARY", is_list=.true., least=1, most=many, &
+      pattern="VARY name a to b step s, VARY name and a list of values, or VARY name ... table=", &
       help="values for $name, one after the other: the variants of the deck"), &
     card_kind_t("MATERIAL", least=1, most=1, pattern="MATERIAL name E= density= [nu=]", &
       help="what links are made of; EFFECTS shear needs nu"), &

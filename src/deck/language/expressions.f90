@@ -21,6 +21,7 @@ module expressions
   use quantities, only: are_alike, kind_text, match_angles, multiply, quantity_t, raise, take_unit
   use spelling, only: suggestion
   use text, only: joined
+  use text_buffer, only: append_text, buffer_text, text_buffer_t
   use tokens, only: is_name, name_length, token_part, token_t
   use units, only: dimension_none, read_unit, unit_system_t, unit_t
   implicit none (type, external)
@@ -201,15 +202,17 @@ contains
     type(unit_system_t), intent(in) :: system
     type(reader_t), intent(out) :: reader
 
+    type(text_buffer_t) :: buffer
     integer :: i
 
     reader%system = system
     allocate (reader%start(size(words)))
-    reader%text = ""
     do i = 1, size(words)
-      reader%start(i) = len(reader%text) + 1
-      reader%text = reader%text//words(i)%text//" "
+      reader%start(i) = buffer%length + 1
+      call append_text(buffer, words(i)%text)
+      call append_text(buffer, " ")
     end do
+    reader%text = buffer_text(buffer)
   end subroutine begin_reading
 
   !> The word, or the part of one, that is wrong.
@@ -252,8 +255,8 @@ contains
     word = reader%text(reader%at:last)
     select case (word(1:1))
     case (",")
-      call complain(reader, reader%at, last, "a comma stands between the values of a function; "// &
-        "a list has no blanks and no arithmetic")
+      call complain(reader, reader%at, last, "a comma stands between the values of "// &
+        "a function; a list is one word without '$'")
     case (")")
       call complain(reader, reader%at, last, "this bracket has no other one")
     case ("^")

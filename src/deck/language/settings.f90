@@ -1,10 +1,11 @@
 !> SET, VARY and `--set`: names that stand for values.
 module settings
-  use card_reader, only: check_form, read_name
+  use card_reader, only: check_form, has_key, read_name
+  use card_table, only: pattern_of
   use cards, only: card_t
   use deck_source, only: append_source, line_count, source_from_text, source_t
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
-  use errors, only: error_t
+  use errors, only: error_of_writing, error_t
   use expressions, only: find_names, is_expression, operand_t
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: nearest_word, suggestion
@@ -15,10 +16,13 @@ module settings
   private
 
   public :: setting_t, settings_t, read_settings, look_up_setting, warn_of_unused_settings, &
-    find_references, written_value, options_path
+    find_references, written_value, options_path, no_name
 
   !> In place of a path: the lines of `--set` among those of the source.
   character(len=*), parameter :: options_path = "<command line>"
+
+  !> In place of a name on a VARY card with a table: the deck does not take this column.
+  character(len=*), parameter :: no_name = "-"
 
   !> A name and where its value comes from.
   type :: setting_t
@@ -29,6 +33,8 @@ module settings
     integer, allocatable :: uses(:)    !! numbers of the settings whose `$name`s the value has; 0:
                                        !! unknown
     integer :: card = 0                !! number of its card
+    integer :: column = 0              !! of the table on its VARY card, which gives its values; 0:
+                                       !! this has none
     logical :: is_varied = .false.     !! by VARY
     logical :: varies = .false.        !! by VARY, or because something that it uses does
     logical :: is_overridden = .false. !! by `--set`
@@ -61,54 +67,103 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(settings_t), intent(out) :: settings         !! of all cards with a valid name
 
-    integer :: i, count
+    integer :: i, count, first
 
-    allocate (settings%list(size(cards)))
+    allocate (settings%list(most_settings(cards)))
     count = 0
     do i = 1, size(cards)
       if (same_word(cards(i)%keyword%text, "SET")) then
-        call read_setting(cards(i), i, .false., diagnostics, settings%list, count)
+        call read_setting(cards(i), i, diagnostics, settings%list, count)
       else if (same_word(cards(i)%keyword%text, "VARY")) then
-        call read_setting(cards(i), i, .true., diagnostics, settings%list, count)
+        call read_varied_names(cards(i), i, diagnostics, settings%list, count)
       end if
     end do
     settings%list = settings%list(:count)
     settings%names = new_name_index(token_texts(settings%list%name))
     do i = 1, count
-      associate (first => settings%list(find_name(settings%names, settings%list(i)%name%text)))
-        if (first%card == settings%list(i)%card) cycle
-        call add_error(diagnostics, settings%list(i)%name, "'"//settings%list(i)%name%text// &
-          "' has a value already", first%name, "first defined here")
-      end associate
+      first = find_name(settings%names, settings%list(i)%name%text)
+      if (first == i) cycle
+      call add_error(diagnostics, settings%list(i)%name, "'"//settings%list(i)%name%text// &
+        "' has a value already", settings%list(first)%name, "first defined here")
     end do
     call take_options(options, source, diagnostics, settings)
   end subroutine read_settings
 
-  !> Reads `SET name value`, `SET name expression`, or the name on `VARY name …`, whose values are
-  !! read once all names are known.
-  pure subroutine read_setting(card, number, is_varied, diagnostics, list, count)
+  !> How many names the SET and VARY cards of a deck can have.
+  pure function most_settings(cards) result(most)
+    type(card_t), intent(in) :: cards(:)
+    integer :: most
+
+    integer :: i
+
+    most = 0
+    do i = 1, size(cards)
+      if (same_word(cards(i)%keyword%text, "SET")) most = most + 1
+      if (same_word(cards(i)%keyword%text, "VARY")) most = most + size(cards(i)%words)
+    end do
+  end function most_settings
+
+  !> Reads `SET name value` or `SET name expression`.
+  pure subroutine read_setting(card, number, diagnostics, list, count)
     type(card_t), intent(in) :: card
     integer, intent(in) :: number !! of the card
-    logical, intent(in) :: is_varied
     type(diagnostics_t), intent(inout) :: diagnostics
     type(setting_t), intent(inout) :: list(:)
     integer, intent(inout) :: count
 
+    integer :: before
     logical :: fine
 
     call check_form(card, diagnostics, fine)
     if (size(card%words) == 0) return
-    call read_name(card%words(1), diagnostics)
-    if (.not. is_name(card%words(1)%text)) return
-    count = count + 1
-    list(count)%name = card%words(1)
-    list(count)%card = number
-    list(count)%is_varied = is_varied
-    list(count)%value = token_t("", 0, 0)
+    before = count
+    call append_name(card%words(1), number, diagnostics, list, count)
     ! Its words are no value, if the card has an equals sign.
-    if (fine .and. .not. is_varied .and. size(card%entries) == 0) call take_value(card%words(2:), &
+    if (count > before .and. fine .and. size(card%entries) == 0) call take_value(card%words(2:), &
       list(count))
   end subroutine read_setting
+
+  !> Reads the name on `VARY name …`, or the names on `VARY name … table=`, where a dash leaves out
+  !! a column. Their values are read once all names are known.
+  pure subroutine read_varied_names(card, number, diagnostics, list, count)
+    type(card_t), intent(in) :: card
+    integer, intent(in) :: number !! of the card
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(setting_t), intent(inout) :: list(:)
+    integer, intent(inout) :: count
+
+    integer :: before, k
+    logical :: fine, has_table
+
+    call check_form(card, diagnostics, fine)
+    has_table = has_key(card, "table")
+    if (size(card%words) == 1 .and. .not. has_table) call add_error(diagnostics, card%keyword, &
+      "this card is too short; expected: "//pattern_of("VARY"), kind=error_of_writing)
+    do k = 1, merge(size(card%words), min(size(card%words), 1), has_table)
+      if (has_table .and. card%words(k)%text == no_name) cycle
+      before = count
+      call append_name(card%words(k), number, diagnostics, list, count)
+      if (count == before) cycle
+      list(count)%is_varied = .true.
+      if (has_table) list(count)%column = k
+    end do
+  end subroutine read_varied_names
+
+  !> Appends a setting without a value. Errors: its name is none; then it is left out.
+  pure subroutine append_name(word, number, diagnostics, list, count)
+    type(token_t), intent(in) :: word
+    integer, intent(in) :: number !! of the card
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(setting_t), intent(inout) :: list(:)
+    integer, intent(inout) :: count
+
+    call read_name(word, diagnostics)
+    if (.not. is_name(word%text)) return
+    count = count + 1
+    list(count)%name = word
+    list(count)%card = number
+    list(count)%value = token_t("", 0, 0)
+  end subroutine append_name
 
   !> Replaces values in the deck by those of the command line.
   pure subroutine take_options(options, source, diagnostics, settings)

@@ -1,5 +1,6 @@
 !> Substitution of values for `$name` on cards.
 module substitution
+  use card_reader, only: has_key
   use cards, only: card_t, entry_t
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_writing
@@ -47,6 +48,8 @@ contains
       if (same_word(cards(i)%keyword%text, "TITLE") .or. same_word(cards(i)%keyword%text, &
         "INCLUDE") .or. same_word(cards(i)%keyword%text, "SET")) cycle
       if (same_word(cards(i)%keyword%text, "VARY")) first = 2
+      ! Before a table there are names only.
+      if (first == 2 .and. has_key(cards(i), "table")) first = size(cards(i)%words) + 1
       do k = first, size(cards(i)%words)
         if (index(cards(i)%words(k)%text, "$") == 0) cycle
         call substitute_word(cards(i)%words(k), slot_t(card=i, word=k), settings, diagnostics, &

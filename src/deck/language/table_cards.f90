@@ -15,7 +15,7 @@ module table_cards
   implicit none (type, external)
   private
 
-  public :: number_table_t, read_table, column_count, check_tables
+  public :: number_table_t, read_table, find_columns, column_count, table_number, check_tables
 
   !> Columns of numbers with the words that they come from.
   type :: number_table_t
@@ -43,22 +43,55 @@ contains
     logical, intent(out) :: fine                      !! whether it could be read
 
     type(unit_t) :: units(size(dimensions, 2))
-    integer :: card
+
+    call find_columns(cards, word, size(units), columns, diagnostics, table, fine)
+    if (fine) call read_units(columns, dimensions, diagnostics, units, table, fine)
+    if (fine) call read_numbers(dimensions, units, diagnostics, table, fine)
+    if (fine) call refuse_falling(diagnostics, table, fine)
+  end subroutine read_table
+
+  !> Finds the words of the table that a card names: units and numbers, which are not read.
+  !!
+  !! Errors: there is no such table; units of columns that are missing or too many; a row that is
+  !! not complete.
+  pure subroutine find_columns(cards, word, count, columns, diagnostics, table, fine)
+    type(card_t), intent(in) :: cards(:)              !! (cards) all of the deck
+    type(token_t), intent(in) :: word                 !! value of `table=`
+    integer, intent(in) :: count                      !! of the columns that it must have
+    character(len=*), intent(in) :: columns           !! what they are: `times and angles`
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(number_table_t), intent(out) :: table        !! complete but for the values, if it is fine
+    logical, intent(out) :: fine                      !! whether it could be read
+
+    integer :: number, found, rows
 
     fine = .false.
-    allocate (table%units(0), table%words(size(units), 0), table%values(size(units), 0))
+    allocate (table%units(0), table%words(count, 0), table%values(count, 0))
     table%name = word
-    card = table_number(cards, word%text)
-    if (card == 0) then
+    number = table_number(cards, word%text)
+    if (number == 0) then
       ! A file that cannot be read has been reported.
       if (.not. has_errors(diagnostics)) call add_error(diagnostics, word, "there is no table '"// &
         word%text//"'")
       return
     end if
-    call read_units(cards(card), columns, dimensions, diagnostics, units, table, fine)
-    if (fine) call read_numbers(cards(card), dimensions, units, diagnostics, table, fine)
-    if (fine) call refuse_falling(diagnostics, table, fine)
-  end subroutine read_table
+    associate (words => cards(number)%words)
+      found = column_count(cards, word%text)
+      rows = (size(words) - 1 - count)/count
+      if (found /= count) then
+        call add_error(diagnostics, words(min(size(words), 1 + max(1, min(found, count + 1)))), &
+          "this table has the units of "//plural(found, "column")//"; expected "// &
+          to_string(count)//", of "//columns, word, "it is named here")
+      else if (size(words) /= 1 + count*(1 + rows)) then
+        call add_error(diagnostics, words(size(words)), "the last row is not complete: "// &
+          "rows have "//plural(count, "number"), word, "the table is named here")
+      else
+        fine = .true.
+        table%units = words(2:1 + count)
+        table%words = reshape(words(2 + count:), [count, rows])
+      end if
+    end associate
+  end subroutine find_columns
 
   !> Number of the columns of a table: units behind its name; 0 if there is no such table.
   pure function column_count(cards, name) result(columns)
@@ -79,8 +112,8 @@ contains
 
   !> Number of the TABLE card with a name; 0 if there is none.
   pure function table_number(cards, name) result(number)
-    type(card_t), intent(in) :: cards(:)
-    character(len=*), intent(in) :: name
+    type(card_t), intent(in) :: cards(:)     !! (cards) all of the deck
+    character(len=*), intent(in) :: name     !! value of `table=`
     integer :: number
 
     do number = 1, size(cards)
@@ -91,33 +124,20 @@ contains
     number = 0
   end function table_number
 
-  !> Reads the units of the columns: all words behind the name that are no numbers.
-  pure subroutine read_units(card, columns, dimensions, diagnostics, units, table, fine)
-    type(card_t), intent(in) :: card
+  !> Reads the units of the columns.
+  pure subroutine read_units(columns, dimensions, diagnostics, units, table, fine)
     character(len=*), intent(in) :: columns
     integer, intent(in) :: dimensions(:, :)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(unit_t), intent(out) :: units(:) !! (columns)
-    type(number_table_t), intent(inout) :: table
+    type(number_table_t), intent(in) :: table
     logical, intent(out) :: fine
 
     type(error_t), allocatable :: error
-    integer :: count, i
+    integer :: i
 
-    count = 0
-    do i = 2, size(card%words)
-      if (number_length(card%words(i)%text) > 0) exit
-      count = count + 1
-    end do
-    fine = count == size(units)
-    if (.not. fine) then
-      call add_error(diagnostics, card%words(min(size(card%words), 1 + max(1, min(count, &
-        size(units) + 1)))), "this table has the units of "//plural(count, "column")// &
-        "; expected "//to_string(size(units))//", of "//columns, table%name, "it is named here")
-      return
-    end if
-    table%units = card%words(2:1 + count)
-    do i = 1, count
+    fine = .true.
+    do i = 1, size(units)
       associate (word => table%units(i))
         ! A column of pure numbers has a dash.
         units(i)%name = ""
@@ -136,8 +156,7 @@ contains
   end subroutine read_units
 
   !> Reads all rows.
-  pure subroutine read_numbers(card, dimensions, units, diagnostics, table, fine)
-    type(card_t), intent(in) :: card
+  pure subroutine read_numbers(dimensions, units, diagnostics, table, fine)
     integer, intent(in) :: dimensions(:, :)
     type(unit_t), intent(in) :: units(:) !! (columns)
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -146,25 +165,16 @@ contains
 
     type(unit_t) :: measure
     real(wp) :: value
-    integer :: columns, rows, i, k, at
+    integer :: i, k
     logical :: read
 
-    columns = size(units)
-    rows = (size(card%words) - 1 - columns)/columns
-    fine = size(card%words) == 1 + columns*(1 + rows)
-    if (.not. fine) then
-      call add_error(diagnostics, card%words(size(card%words)), "the last row is not complete: "// &
-        "rows have "//plural(columns, "number"), table%name, "the table is named here")
-      return
-    end if
-    table%words = reshape(card%words(2 + columns:), [columns, rows])
+    fine = .true.
     deallocate (table%values)
-    allocate (table%values(columns, rows), source=0.0_wp)
-    do k = 1, rows
-      do i = 1, columns
-        at = 1 + columns*k + i
-        call read_measure(card%words(at), dimensions(:, i), units(i), diagnostics, value, measure, &
-          read)
+    allocate (table%values(size(units), size(table%words, 2)), source=0.0_wp)
+    do k = 1, size(table%words, 2)
+      do i = 1, size(units)
+        call read_measure(table%words(i, k), dimensions(:, i), units(i), diagnostics, value, &
+          measure, read)
         fine = fine .and. read
         if (read) table%values(i, k) = model_value(value, measure, dimensions(:, i))
       end do

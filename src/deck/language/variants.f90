@@ -1,6 +1,7 @@
 !> The cards of a deck with values in place of its `$name`s: one set of cards, or one per variant of
 !! a deck with VARY.
 module variants
+  use card_reader, only: value_of
   use cards, only: card_t
   use deck_source, only: source_t
   use diagnostics, only: add_error, diagnostics_t, has_errors
@@ -9,11 +10,12 @@ module variants
   use numbers, only: shortest_text
   use report_kinds, only: report_kind_t
   use setting_values, only: find_fixed_values, find_varying_values, mark_uses
-  use settings, only: read_settings, settings_t, warn_of_unused_settings
+  use settings, only: no_name, read_settings, setting_t, settings_t, warn_of_unused_settings
   use substitution, only: put_value, slot_t, substitute
+  use table_cards, only: find_columns, number_table_t, table_number
   use text, only: same_word, string_t, to_string
   use tokens, only: token_t, token_texts
-  use variations, only: get_value_word, read_variation, value_word, variation_t
+  use variations, only: get_value_word, read_column, read_variation, value_word, variation_t
   implicit none (type, external)
   private
 
@@ -60,8 +62,7 @@ contains
     call read_variations(deck, diagnostics)
   end subroutine read_deck_cards
 
-  !> Reads the VARY cards that the command line does not override, and links them to the slots for
-  !! their values.
+  !> Reads the VARY cards, but for the names that the command line overrides.
   pure subroutine read_variations(deck, diagnostics)
     type(deck_cards_t), intent(inout) :: deck
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -82,14 +83,19 @@ contains
     variants = 1
     do i = 1, size(list)
       associate (setting => deck%settings%list(i))
-        if (.not. setting%is_varied .or. size(deck%fixed(setting%card)%words) < 2) cycle
-        count = count + 1
-        call read_variation(deck%fixed(setting%card), i, deck%fixed, deck%reports, diagnostics, &
-          list(count))
-        if (.not. is_used(i) .and. all_found) then
-          call add_error(diagnostics, setting%name, "no card uses '$"//setting%name%text// &
-            "': all variants would be the same")
+        if (.not. setting%is_varied) cycle
+        if (setting%column > 0) then
+          call read_varied_column(deck, i, diagnostics, list(count + 1))
+        else if (size(deck%fixed(setting%card)%words) > 1) then
+          call read_variation(deck%fixed(setting%card), i, deck%fixed, deck%reports, diagnostics, &
+            list(count + 1))
+        else
+          cycle
         end if
+        count = count + 1
+        list(count)%card = setting%card
+        if (.not. is_used(i) .and. all_found) call tell_of_no_use(setting, diagnostics)
+        if (.not. is_first_of_card(list(:count), count)) cycle
         variants = min(variants*max(1, size(list(count)%value)), most_variants + 1_long)
         if (variants > most_variants .and. .not. has_errors(diagnostics)) then
           call add_error(diagnostics, setting%name, "there are more than "// &
@@ -104,7 +110,70 @@ contains
     end do
   end subroutine read_variations
 
-  !> Errors: a value on a VARY card is varied itself; it would have to be known before the variants.
+  !> Reads the values of a name from its column of a table. What is wrong with the table is told at
+  !! the first name of the card.
+  pure subroutine read_varied_column(deck, number, diagnostics, variation)
+    type(deck_cards_t), intent(in) :: deck
+    integer, intent(in) :: number !! of the name among the settings
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(variation_t), intent(out) :: variation
+
+    type(number_table_t) :: table
+    type(token_t) :: name
+    type(diagnostics_t) :: told
+    logical :: fine, is_first
+
+    associate (setting => deck%settings%list(number), list => deck%settings%list)
+      name = value_of(deck%fixed(setting%card), "table")
+      is_first = number == findloc(list%card == setting%card .and. list%is_varied, .true., dim=1)
+      fine = name%line > 0
+      if (fine .and. is_first) then
+        call find_columns(deck%fixed, name, size(deck%fixed(setting%card)%words), &
+          "the names on the card", diagnostics, table, fine)
+        if (fine .and. size(table%words, 2) == 0) call add_error(diagnostics, name, &
+          "the table '"//name%text//"' has no rows")
+      else if (fine) then
+        call find_columns(deck%fixed, name, size(deck%fixed(setting%card)%words), "", told, table, &
+          fine)
+      end if
+      if (fine) then
+        call read_column(setting%name, number, table%units(setting%column), &
+          table%words(setting%column, :), deck%fixed, deck%reports, diagnostics, variation)
+      else
+        variation%name = setting%name
+        variation%setting = number
+        variation%unit = ""
+        allocate (variation%value(0))
+      end if
+    end associate
+  end subroutine read_varied_column
+
+  !> Whether a variation is the first one of its card.
+  pure function is_first_of_card(variations, number) result(is)
+    type(variation_t), intent(in) :: variations(:)
+    integer, intent(in) :: number
+    logical :: is
+
+    is = number == 1
+    if (.not. is) is = variations(number - 1)%card /= variations(number)%card
+  end function is_first_of_card
+
+  !> Adds the error that nothing uses a name of a VARY.
+  pure subroutine tell_of_no_use(setting, diagnostics)
+    type(setting_t), intent(in) :: setting
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    if (setting%column == 0) then
+      call add_error(diagnostics, setting%name, "no card uses '$"//setting%name%text// &
+        "': all variants would be the same")
+    else
+      call add_error(diagnostics, setting%name, "no card uses '$"//setting%name%text// &
+        "': write "//no_name//" for a column that the deck does not take")
+    end if
+  end subroutine tell_of_no_use
+
+  !> Errors: a value on a VARY card, or in its table, is varied itself; it would have to be known
+  !! before the variants.
   pure subroutine refuse_varied_variations(deck, diagnostics)
     type(deck_cards_t), intent(inout) :: deck
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -113,7 +182,7 @@ contains
 
     do k = 1, size(deck%slots)
       associate (slot => deck%slots(k))
-        if (.not. same_word(deck%fixed(slot%card)%keyword%text, "VARY")) cycle
+        if (.not. gives_variants(deck%fixed, slot%card)) cycle
         ! A key on the card is reported as an error of its own.
         if (slot%word == 0) cycle
         call add_error(diagnostics, deck%fixed(slot%card)%words(slot%word), &
@@ -124,6 +193,25 @@ contains
     end do
   end subroutine refuse_varied_variations
 
+  !> Whether a card is a VARY, or the table of one.
+  pure function gives_variants(cards, number) result(gives)
+    type(card_t), intent(in) :: cards(:)
+    integer, intent(in) :: number !! of the card
+    logical :: gives
+
+    type(token_t) :: name
+    integer :: i
+
+    gives = same_word(cards(number)%keyword%text, "VARY")
+    if (gives .or. .not. same_word(cards(number)%keyword%text, "TABLE")) return
+    do i = 1, size(cards)
+      if (.not. same_word(cards(i)%keyword%text, "VARY")) cycle
+      name = value_of(cards(i), "table")
+      if (name%line == 0) cycle
+      gives = gives .or. table_number(cards, name%text) == number
+    end do
+  end function gives_variants
+
   !> Number of variants of a deck; 1 without VARY, 0 if a VARY has no values after an error.
   pure function variant_count(deck) result(count)
     type(deck_cards_t), intent(in) :: deck !! with or without errors
@@ -133,7 +221,7 @@ contains
 
     count = 1
     do k = 1, size(deck%variations)
-      count = count*size(deck%variations(k)%value)
+      if (is_first_of_card(deck%variations, k)) count = count*size(deck%variations(k)%value)
     end do
   end function variant_count
 
@@ -211,7 +299,7 @@ contains
     end associate
   end subroutine mark_unknown
 
-  !> Number of the value of each VARY in a variant; the last one varies fastest.
+  !> Number of the value of each VARY in a variant; the last card varies fastest.
   pure function choices(deck, number) result(choice)
     type(deck_cards_t), intent(in) :: deck
     integer, intent(in) :: number
@@ -223,7 +311,7 @@ contains
     do k = size(choice), 1, -1
       count = max(1, size(deck%variations(k)%value))
       choice(k) = 1 + mod(rest, count)
-      rest = rest/count
+      if (is_first_of_card(deck%variations, k)) rest = rest/count
     end do
   end function choices
 

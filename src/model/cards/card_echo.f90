@@ -8,7 +8,7 @@ module card_echo
   use numbers, only: number_length
   use report_kinds, only: kind_named, report_kind_t
   use response_cards, only: is_response_form
-  use settings, only: setting_t, written_value
+  use settings, only: no_name, setting_t, written_value
   use text, only: joined, lower_case, same_word, upper_case
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use tokens, only: token_texts
@@ -47,11 +47,33 @@ contains
     end do
     do i = 1, size(deck%settings%list)
       associate (setting => deck%settings%list(i))
-        if (setting%is_overridden) lines(setting%card) = &
-          overridden_line(deck%written(setting%card), setting, source)
+        if (.not. setting%is_overridden) cycle
+        if (setting%column > 0) then
+          call override_column(setting, lines(setting%card))
+        else
+          lines(setting%card) = overridden_line(deck%written(setting%card), setting, source)
+        end if
       end associate
     end do
   end function echo_cards
+
+  !> Puts the SET card of a name on `VARY name … table=` before this card, on which a dash takes its
+  !! place.
+  pure subroutine override_column(setting, line)
+    type(setting_t), intent(in) :: setting
+    type(echo_line_t), intent(inout) :: line !! of the card
+
+    integer :: first, last, i
+
+    first = index(line%text, achar(10), back=.true.) + 1
+    do i = 1, setting%column
+      first = first + index(line%text(first:), " ")
+    end do
+    last = first - 2 + index(line%text(first:)//" ", " ")
+    line%text = "SET "//setting%name%text//" "//written_value(setting)// &
+      "   ! --set on the command line"//achar(10)//line%text(:first - 1)//no_name// &
+      line%text(last + 1:)
+  end subroutine override_column
 
   !> The SET card with the value from the command line; its comment gives what the deck has.
   pure function overridden_line(card, setting, source) result(line)
