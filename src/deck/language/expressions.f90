@@ -20,7 +20,7 @@ module expressions
   use numbers, only: number_length, read_real
   use quantities, only: are_alike, kind_text, match_angles, multiply, quantity_t, raise, take_unit
   use spelling, only: suggestion
-  use text, only: joined
+  use text, only: is_continuation_byte, joined
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use tokens, only: is_name, name_length, token_part, token_t
   use units, only: dimension_none, read_unit, unit_system_t, unit_t
@@ -375,7 +375,7 @@ contains
     type(operand_t), intent(in) :: operands(:)
     type(quantity_t), intent(out) :: found
 
-    integer :: opened
+    integer :: opened, last
 
     opened = reader%at
     if (is_next(reader, "(")) then
@@ -392,7 +392,11 @@ contains
       call complain(reader, opened - 1, opened - 1, &
         "a number, $name, function or ( must follow this")
     else
-      call complain(reader, opened, opened, "unexpected '"//reader%text(opened:opened)// &
+      last = opened
+      do while (is_continuation_byte(reader%text(last + 1:last + 1)))
+        last = last + 1
+      end do
+      call complain(reader, opened, last, "unexpected '"//reader%text(opened:last)// &
         "'; expected a number, $name, function or (")
     end if
   end subroutine read_atom
@@ -482,7 +486,12 @@ contains
     end do
     k = first - 2 + scan(reader%text(first:), " ,()$"//operators)
     call read_unit(reader%text(first:k), dimension_none, measure, error)
-    call complain(reader, first, k, error%text(:index(error%text//";", ";") - 1))
+    if (allocated(error)) then
+      call complain(reader, first, k, error%text(:index(error%text//";", ";") - 1))
+    else
+      ! A unit with a bracket behind it, as a function has.
+      call complain(reader, k + 1, k + 1, "an operator is missing before this bracket")
+    end if
   end subroutine take_unit_behind
 
   !> Reads a function, or π.
