@@ -15,6 +15,7 @@
 !! known.
 module linkages
   use applied_load_types, only: applied_load_t
+  use coordinate_types, only: coordinate_t
   use joint_friction_types, only: joint_friction_t
   use kinds, only: wp
   implicit none (type, external)
@@ -246,6 +247,7 @@ module linkages
                                                    !! pins [N]
     real(wp), allocatable :: couple(:)             !! (bodies) constant external torques [N m]
     type(applied_load_t), allocatable :: loads(:)  !! all others
+    type(coordinate_t), allocatable :: coordinates(:) !! that have names, and terms of them
     type(joint_friction_t), allocatable :: frictions(:) !! of joints that rub; not allocated: none
     type(body_t), allocatable :: bodies(:)         !! in the order in which they are placed
     type(slider_t), allocatable :: sliders(:)      !! pins on lines

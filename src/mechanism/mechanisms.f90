@@ -12,6 +12,7 @@ module mechanisms
     runs_against
   use beam_mesh, only: new_beam_mesh
   use four_bar_loops, only: find_four_bar, four_bar_t
+  use coordinate_builder, only: build_coordinates, listed_coordinate_t
   use elastic_linkages, only: needs_parts, new_elastic_linkage
   use friction_builder, only: frictions_of
   use kinds, only: wp
@@ -42,6 +43,7 @@ module mechanisms
     type(body_point_t), allocatable :: points(:) !! whose paths are requested
     type(body_point_t), allocatable :: response_points(:) !! of REPORT response
     type(body_gauge_t), allocatable :: gauges(:) !! of REPORT strains
+    type(listed_coordinate_t), allocatable :: coordinates(:) !! of the linkage, in its order
     type(four_bar_t), allocatable :: four_bar   !! that the linkage is; not allocated: another one
     logical :: is_four_bar = .true.             !! it is written as one, unless a report has a
                                                 !! format of its own
@@ -96,6 +98,7 @@ contains
     end do
     ! Springs are the last: `spring_words` finds them there.
     call append_loads(springs_of(model, assembly%link, pins, mechanism%linkage), mechanism%linkage)
+    call build_coordinates(model, assembly%link, pins, mechanism%linkage, mechanism%coordinates)
     mechanism%linkage%frictions = frictions_of(model, assembly%link, pins, mechanism%linkage)
     if (size(mechanism%beams) > 0 .and. needs_parts(mechanism%linkage)) mechanism%elastic = &
       new_elastic_linkage(mechanism%linkage, mechanism%beams)

@@ -13,7 +13,7 @@ module spring_builder
   implicit none (type, external)
   private
 
-  public :: springs_of
+  public :: springs_of, place_of
 
   !> Of a turn: an angle drawn at the first position is there.
   real(wp), parameter :: rounding = 1.0e-9_wp
@@ -90,11 +90,11 @@ contains
   !> A pin, a point of a body, or a GROUND pin that is none of the linkage: such a place is counted
   !! from a ground pivot.
   pure function place_of(model, links, pins, linkage, name) result(at)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: links(:)
-    type(name_index_t), intent(in) :: pins
-    type(linkage_t), intent(in) :: linkage
-    character(len=*), intent(in) :: name
+    type(model_t), intent(in) :: model        !! without errors
+    integer, intent(in) :: links(:)           !! (bodies) numbers of their links in the model
+    type(name_index_t), intent(in) :: pins    !! names of the pins
+    type(linkage_t), intent(in) :: linkage    !! its bodies
+    character(len=*), intent(in) :: name      !! in any case of letters
     type(load_place_t) :: at
 
     integer :: i

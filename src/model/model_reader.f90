@@ -27,6 +27,8 @@ module model_reader
   use linkage_cards, only: read_ground, read_mesh, read_pin_mass, set_default_mesh
   use load_cards, only: force_card_t, read_force, read_gravity, read_torque, torque_card_t
   use materials, only: read_material
+  use measure_cards, only: read_measure_card
+  use measure_checks, only: check_measures
   use mesh_checks, only: check_meshes
   use models, only: as_four_bar, drives_length, has_gauge_histories, has_law, is_four_bar, &
     is_loaded, is_moving, is_sprung, model_t, needs_frequencies, needs_mesh, &
@@ -50,7 +52,7 @@ module model_reader
   use shear, only: check_shear
   use spelling, only: suggestion
   use structure_checks, only: check_structure, describes_structure, take_structure
-  use summary_needs, only: take_needs
+  use summary_needs, only: add_forces_of_drives, take_needs
   use spring_checks, only: check_springs, read_springs
   use table_cards, only: check_tables
   use text, only: joined, same_word, string_t, upper_case
@@ -141,6 +143,7 @@ contains
     call check_drives(diagnostics, model)
     if (model%modes_word%line == 0) model%modes = max(1, min(model%modes, most_modes(model)))
     call check_springs(diagnostics, model)
+    call check_measures(diagnostics, model)
     call check_frictions(diagnostics, model)
     call check_balance(diagnostics, model)
     call find_dampings(diagnostics, model)
@@ -195,12 +198,17 @@ contains
           report%kind = reports(number)
           if (report%kind%name == "motion") then
             if (.not. report%with_pins) report%kind%tables(2) = table_kind_t()
-            if (.not. report%with_forces) report%kind%tables(3) = table_kind_t()
+            if (.not. report%with_coordinates) report%kind%tables(3) = table_kind_t()
+            if (.not. report%with_forces) report%kind%tables(4) = table_kind_t()
           end if
           if (report%kind%name == "geometry" .and. report_number(model, "motion") == 0) &
             report%kind%tables(2) = table_kind_t()
           if (report%kind%name == "transient" .and. .not. has_gauge_histories(model)) &
             report%kind%tables(2) = table_kind_t()
+          if (report%kind%name == "coordinates") then
+            if (report%ratio_to%line == 0) report%kind%tables(2) = table_kind_t()
+            call add_forces_of_drives(model, report%kind)
+          end if
           if (report%kind%name == "summary") call take_needs(reports, model, as_four_bar(model) &
             .or. is_four_bar(model), is_sound, diagnostics, report)
           if (report%kind%name == "drive") call add_warning(diagnostics, report%keyword, &
@@ -415,7 +423,8 @@ contains
     allocate (model%drawn_pins(number_of(cards, "PIN")), model%welds(number_of(cards, "WELD")), &
       model%clamps(number_of(cards, "CLAMP")), &
       model%guides(number_of(cards, "GUIDE")), model%sliders(number_of(cards, "SLIDER")), &
-      model%drives(number_of(cards, "DRIVE")), model%laws(number_of(cards, "LAW")))
+      model%drives(number_of(cards, "DRIVE")), model%laws(number_of(cards, "LAW")), &
+      model%measures(number_of(cards, "MEASURE")))
     allocate (model%branches(0), model%shafts(0), model%forces(0), model%torques(0), &
       model%processes(0))
     ! What the first drive moves says what CRANK and SPEED are.
@@ -544,6 +553,8 @@ contains
           call read_torque(card, system, diagnostics, torque)
           if (torque%link_name%line > 0) call append_card(model%torques, torque)
         end if
+      case ("MEASURE")
+        call read_measure_card(card, system, diagnostics, model%measures(number))
       case ("MOTOR")
         call read_motor(card, system, diagnostics, model%motor)
       case ("LOAD")

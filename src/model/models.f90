@@ -21,6 +21,7 @@ module models
   use linkage_cards, only: ground_t, mesh_t, pin_mass_t
   use load_cards, only: force_card_t, torque_card_t
   use materials, only: material_t
+  use measure_cards, only: measure_card_t
   use motion_programs, only: motion_program_t
   use motor_cards, only: motor_t
   use process_cards, only: over_nothing, process_card_t
@@ -45,7 +46,7 @@ module models
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
     link_line_density, speed_in_table, speed_in_words, is_four_bar, as_four_bar, &
     is_of_four_bar, word_of_four_bar, is_pin, pivots, &
-    is_end_of_spring, drives_length, balances, has_law, &
+    is_end_of_spring, is_end_of_measure, drives_length, balances, has_law, &
     rule_at_change_points, motion_goes_through
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
@@ -86,6 +87,7 @@ module models
                                                 !! other loads
     type(spring_card_t), allocatable :: springs(:)   !! SPRING and DAMPER cards
     type(friction_card_t), allocatable :: frictions(:) !! FRICTION cards
+    type(measure_card_t), allocatable :: measures(:)   !! MEASURE cards
     type(balance_card_t) :: balance             !! counterweights of REPORT balance
     type(shaft_card_t), allocatable :: shafts(:) !! its balance shafts
     type(law_card_t), allocatable :: laws(:)    !! LAW cards
@@ -180,9 +182,9 @@ contains
   end function has_gauge_histories
 
   !> Whether the linkage has the parts of a four-bar and no others: three links between two pins
-  !! each, two ground pivots, one driven link. GROUND pins that only hold springs do not count.
-  !! Decks that were made with PIN or BRANCH cards about pins must form its loop, too; of others a
-  !! pin that does not fit is a mistake.
+  !! each, two ground pivots, one driven link. GROUND pins that are ends of springs and measures
+  !! only do not count. Decks that were made with PIN or BRANCH cards about pins must form its loop,
+  !! too; of others a pin that does not fit is a mistake.
   pure function is_four_bar(model) result(is)
     type(model_t), intent(in) :: model !! as read
     logical :: is
@@ -286,6 +288,23 @@ contains
     end do
   end function is_end_of_spring
 
+  !> Whether a MEASURE card names a place.
+  pure function is_end_of_measure(model, name) result(is)
+    type(model_t), intent(in) :: model !! as read
+    character(len=*), intent(in) :: name
+    logical :: is
+
+    integer :: i, k
+
+    is = .false.
+    do i = 1, size(model%measures)
+      do k = 1, 2
+        if (model%measures(i)%places(k)%line > 0) is = is .or. &
+          same_word(model%measures(i)%places(k)%text, name)
+      end do
+    end do
+  end function is_end_of_measure
+
   !> Whether links bend, and a name is that of a point at which a spring or damper holds one that
   !! does.
   pure function holds_spring(model, name) result(holds)
@@ -338,29 +357,21 @@ contains
     end do
   end function forms_loop
 
-  !> Numbers of the GROUND pins, but for those that only hold ends of springs and dampers.
+  !> Numbers of the GROUND pins, but for those that are ends of springs, dampers and measures only.
   pure function pivots(model) result(numbers)
     type(model_t), intent(in) :: model !! as read
     integer, allocatable :: numbers(:)
 
-    logical :: holds(size(model%grounds))
-    integer :: i, k, g
+    logical :: is_end(size(model%grounds))
+    integer :: g
 
-    holds = .false.
-    if (allocated(model%springs)) then
-      do i = 1, size(model%springs)
-        do k = 1, 2
-          do g = 1, size(model%grounds)
-            holds(g) = holds(g) .or. (model%springs(i)%ends(k)%line > 0 .and. &
-              same_word(model%grounds(g)%pin%text, model%springs(i)%ends(k)%text))
-          end do
-        end do
-      end do
-    end if
     do g = 1, size(model%grounds)
-      if (holds(g)) holds(g) = pin_uses(model, model%grounds(g)%pin%text) == 0
+      associate (pin => model%grounds(g)%pin%text)
+        is_end(g) = is_end_of_spring(model, pin) .or. is_end_of_measure(model, pin)
+        if (is_end(g)) is_end(g) = pin_uses(model, pin) == 0
+      end associate
     end do
-    numbers = pack([(g, g=1, size(model%grounds))], .not. holds)
+    numbers = pack([(g, g=1, size(model%grounds))], .not. is_end)
   end function pivots
 
   !> How many links have a pin.

@@ -35,8 +35,8 @@ contains
 
     any_table = len_trim(table) == 0
     associate (found => variant%found)
-      if (any_table .or. any(table == [character(len=9) :: "reactions", "bearings", "frame", &
-        "drives", "drive", "balance"])) call find_lock(found%joints%lock)
+      if (any_table .or. any(table == [character(len=11) :: "reactions", "bearings", "frame", &
+        "drives", "drive", "balance", "coordinates"])) call find_lock(found%joints%lock)
       if (any_table .or. table == "balance") call find_lock(found%balance%balanced%lock)
       if (any_table .or. table == "lagrange") call find_lock(found%lagrange%lock)
       if (any_table .or. table == "friction") call find_lock(found%friction%lock)

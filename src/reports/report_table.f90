@@ -5,6 +5,7 @@ module report_table
   use balance_report, only: describe_balance, describe_hung_balance
   use bearings_report, only: describe_bearings
   use campbell_report, only: describe_campbell
+  use coordinates_report, only: describe_coordinates
   use drive_report, only: describe_drive, describe_torque
   use equilibrium_report, only: describe_equilibrium
   use frame_report, only: describe_frame
@@ -69,6 +70,7 @@ contains
     call add(describe_friction)
     call add(describe_sizing)
     call add(describe_points)
+    call add(describe_coordinates)
     call add(describe_lagrange)
     call add(describe_equilibrium)
     call add(describe_linkage)

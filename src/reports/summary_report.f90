@@ -1,12 +1,14 @@
 !> `summary.dat`: one row a variant, with least, mean and greatest of quantities over its positions
 !! and speeds.
 module summary_report
+  use coordinates_report, only: ratio_unit
   use drive_motions, only: place_columns, table_place
   use frequency_report, only: effects_notes, shown_speed
   use kinds, only: wp
   use load_notes, only: acceleration_note
   use models, only: accuracy_of_study, drives_length, has_law, model_t, needs_frequencies, &
     needs_response, report_number
+  use named_coordinates, only: find_named_coordinates, named_coordinate_t
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, lay_out_columns, report_record_t, table_plan_t, &
     whole_table_t
@@ -37,7 +39,8 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="summary", help="a row a variant: least, mean and "// &
-      "greatest values", pattern="REPORT summary of=f1,torque,... [accuracy=]", positions=.true.)
+      "greatest values", pattern="REPORT summary of=f1,torque,... [ratio_to=] "// &
+      "[accuracy=]", positions=.true.)
     call add_table(report, summary_table_t(), "summary", "rows,failed:#", has_blocks=.false.)
   end subroutine describe_summary
 
@@ -126,11 +129,37 @@ contains
       unit = "-"
     case default
       unit = trim(quantity_kinds(quantity%kind)%unit)
+      if (quantity%of /= "") unit = unit_of_coordinate(model, quantity)
       ! What turns a crank is a force on a slider.
       if (unit == "moment" .and. drives_length(model) .and. index(column, "torque") > 0) &
         unit = "force"
     end select
   end function unit_of
+
+  !> The unit of a quantity of a coordinate: of lengths as in the table of quantities.
+  pure function unit_of_coordinate(model, quantity) result(unit)
+    type(model_t), intent(in) :: model
+    type(quantity_t), intent(in) :: quantity
+    character(len=:), allocatable :: unit
+
+    type(named_coordinate_t), allocatable :: named(:)
+
+    call find_named_coordinates(model, named)
+    associate (reference => model%reports(report_number(model, "summary"))%reference, &
+        is_angle => named(quantity%mode)%is_angle)
+      unit = trim(quantity_kinds(quantity%kind)%unit)
+      select case (unit)
+      case ("length")
+        if (is_angle) unit = "deg"
+      case ("velocity")
+        if (is_angle) unit = "rate"
+      case ("force")
+        if (is_angle) unit = "moment"
+      case ("-")
+        unit = ratio_unit(model, is_angle, named(reference)%is_angle)
+      end select
+    end associate
+  end function unit_of_coordinate
 
   !> Appends the row of a variant, or a failed row if a quantity is nowhere.
   subroutine add_summary(variant, layout, rows)

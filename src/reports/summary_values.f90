@@ -4,6 +4,8 @@
 !! Values and failures are those of the tables that have a row for each of them. A new quantity is a
 !! record of `summary_quantities` and a case of `find_value`.
 module summary_values
+  use coordinate_study, only: coordinate_state_t
+  use coordinates_report, only: find_lost_coordinate, has_direction, has_ratio, ratio_at, state_at
   use drive_motions, only: drive_rates
   use errors, only: error_t
   use friction_words, only: lock_words
@@ -126,6 +128,11 @@ contains
         state => variant%found%positions%state(position), &
         name => quantity_kinds(quantity%kind)%name)
       found%is_there = is_computed(variant, table_of(report, name), position, speed)
+      if (found%is_there .and. report == "coordinates") then
+        found%is_there = has_direction(variant, position, quantity%mode)
+        if (found%is_there .and. name == "ratio:") found%is_there = has_ratio(variant, position, &
+          reference_of(variant))
+      end if
       if (.not. found%is_there) return
       rates = drive_rates(model, speed, position)
       select case (report)
@@ -151,11 +158,49 @@ contains
         found%value = norm2(frame(4:5))
       case ("bearings")
         found%value = greatest_force(variant, state, rates, speed)
+      case ("coordinates")
+        found%value = coordinate_quantity(variant, trim(name), position, speed, quantity%mode)
       case ("strains", "response", "torque")
         call find_elastic_value(variant, trim(name), position, speed, found)
       end select
     end associate
   end subroutine find_value
+
+  !> A quantity of a coordinate, which has it at this position.
+  pure function coordinate_quantity(variant, name, position, speed, number) result(value)
+    type(variant_results_t), intent(in) :: variant
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: position, speed
+    integer, intent(in) :: number !! of the coordinate
+    real(wp) :: value
+
+    type(coordinate_state_t) :: state
+
+    value = 0.0_wp
+    if (name == "ratio:") then
+      value = ratio_at(variant, position, number, reference_of(variant))
+      return
+    end if
+    state = state_at(variant, position, speed, number)
+    select case (name)
+    case ("value:")
+      value = state%value
+    case ("rate:")
+      value = state%rate
+    case ("effort:")
+      value = state%effort
+    case ("power:")
+      value = state%power
+    end select
+  end function coordinate_quantity
+
+  !> The coordinate to which ratios of REPORT summary refer.
+  pure function reference_of(variant) result(reference)
+    type(variant_results_t), intent(in) :: variant
+    integer :: reference
+
+    reference = variant%model%reports(report_number(variant%model, "summary"))%reference
+  end function reference_of
 
   !> The greatest force in any joint [N].
   pure function greatest_force(variant, state, rates, speed) result(greatest)
@@ -199,7 +244,7 @@ contains
   !> The table of a report that has a quantity.
   pure function table_of(report, quantity) result(table)
     character(len=*), intent(in) :: report, quantity !! names
-    character(len=10) :: table
+    character(len=11) :: table
 
     table = report
     if (report == "drives" .and. index(quantity, "shaking") == 1) table = "shaking"
@@ -267,6 +312,8 @@ contains
         else if (is_locked_at(variant, report, at(1), at(2))) then
           reason = lock_words(variant%model, variant%mechanism, lock_at(variant, report, at(1), &
             at(2)))
+        else if (report == "coordinates") then
+          reason = find_lost_coordinate(variant, at(1))
         else
           reason = open_words(variant, found%joints%joints(findloc(found%joints%is_open(:, state), &
             .true., dim=1)))

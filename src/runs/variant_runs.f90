@@ -98,7 +98,7 @@ contains
     do i = 1, size(studies)
       if (.not. needs_study(run%results%model, studies(i)%name)) cycle
       if (was_interrupted()) return
-      call studies(i)%compute(run)
+      if (associated(studies(i)%compute)) call studies(i)%compute(run)
       if (allocated(run%error)) then
         call move_alloc(run%error, error)
         return

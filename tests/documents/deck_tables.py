@@ -22,8 +22,8 @@ CARDS = {
     "POINT": "POINT tip coupler along=100",
 }
 BEAMS, BODIES = " material=steel section=strip", " mass=1"
-# Frequencies and the elastic response refuse friction.
-FURTHER = {"friction": ["FRICTION O2 radius=5 coefficient=0.1"]}
+# Frequencies and the elastic response refuse friction; coordinates are of a MEASURE or the like.
+FURTHER = {"friction": ["FRICTION O2 radius=5 coefficient=0.1"], "coordinates": ["MEASURE height travel A 0 1"]}
 KEYS = {"motion": " crank=30 end=1 step=0.1", "geometry": " crank=30", "transient": " turns=1", "summary": " of=transmission_angle"}
 
 

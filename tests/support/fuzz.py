@@ -53,7 +53,8 @@ NOT_A_NUMBER = re.compile(r"\b(?:NaN|[-+]?Inf(?:inity)?)\b|\*{4,}|is not a numbe
 REAL = re.compile(r"-?\d\.\d+E[-+]\d{3}$")
 PLACE = re.compile(r"(?P<deck>.*?):(?P<line>\d+):(?P<column>\d+): (?:error|warning|note): .")
 # Columns of words; and `branch`, but for branches.dat.
-WORDS = {"link", "event", "point", "gauge", "linkage", "quantity", "kind", "modes", "verdict", "pin", "drive", "part", "unit"}
+WORDS = {"link", "event", "point", "gauge", "linkage", "quantity", "kind", "modes", "verdict", "pin", "drive", "part", "unit", "joint", "coordinate",
+         "place"}
 GAPS = {"quadratic", "out_of_plane", "distance"}  # of validity.dat: - where nothing is estimated
 OTHERS = {"echo.deck", "run.log", "summary.json"}
 # What a deck may include.

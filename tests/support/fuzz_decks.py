@@ -30,9 +30,13 @@ PIECES = [b"\0", b"\t", b"\r", b"\n", b"\r\n", b"&", b" & \n", b"!", b"#", b"=",
           b"x"*5000, b"\n"*50, b"\nINCLUDE part.deck\n", b"\nINCLUDE d.deck\n", b"\nSET x 1\n", b"\nVARY x 1 2\n", b"$half", b"\nSET x 2*(3 - $half)**2\n", b"**", b"sqrt(", b"-$half*", b"&\n"*20, b"%s%n", b"{", b"()", b"END\n", b"NaN", b"*****"]
 # Reports that a sound deck with beams asks for, and those that need a card of their own or keys; all others fit any deck.
 BEAM_REPORTS = ["kinematics", "inertia", "mesh", "frequencies", "shapes", "branches"]
-OWN_CARD_REPORTS = ["motion", "transient", "summary"]
+OWN_CARD_REPORTS = ["motion", "transient", "summary", "friction"]
+# MEASURE cards, nearly all of them sound, of pins 0 … 3 and links a, b, c of a four-bar.
+MEASURES = ["reach distance {0} {2}", "far distance {1} {3}", "turn angle {a}", "lean angle {b}", "bend angle {c} against {b}",
+            "place along {2} {a}", "beside across {0} {b}", "lift travel {1} 0 1", "way travel {2} -3 4", "twice sum 2 reach -0.5 lift",
+            "both sum 1 turn -1 lean", "mixed sum 1 turn 1 reach", "still distance {0} {3}", "own along {1} {a}"]
 # Those of a crank that turns at constant speed, and of a range of speeds.
-RESPONSE_REPORTS = ["response", "strains", "peaks", "drive", "validity", "stability"]
+RESPONSE_REPORTS = ["response", "strains", "peaks", "drive", "torque", "validity", "stability"]
 RANGE_REPORTS = ["campbell", "intervals"]
 LENGTHS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254, "ft": 0.3048}
 MASSES = {"kg": 1.0, "g": 1e-3, "tonne": 1e3, "lbm": 0.45359237, "slug": 14.593903, "slinch": 175.126835}
@@ -143,6 +147,8 @@ def bodies(dice, links, pins, scale, mass, speed, bare):
             (0.3, f"TORQUE {dice.choice(names)} {some(mass*speed**2*scale**2, moment)}")):
         if dice.chance(probability):
             cards.append(card)
+    measured = measures(dice, names, pins) if dice.chance(0.4) else []
+    cards += measured
     if dice.chance(0.6):
         turn = some(mass*speed**2*scale**2, moment, False)
         cards += dice.choice([[], [f"MOTOR torque={turn}"], [f"MOTOR stall={turn} noload={speed:.4g}rad/s"]])
@@ -150,13 +156,32 @@ def bodies(dice, links, pins, scale, mass, speed, bare):
             cards.append(f"LOAD {dice.choice(names)} torque={some(mass*speed**2*scale**2/9, moment)} "
                          f"damping={some(mass*speed*scale**2/9, damping, False)}")
         end = min(2.0, dice.between(0.5, 9.0)/speed)
+        in_time = " coordinates=yes" if measured and dice.chance(0.6) else ""
         cards.append(f"REPORT motion crank={dice.choice([0, 30, 45, 90, 200])} speed={speed*dice.between(-1, 1):.4g}rad/s "
-                     f"end={quantity(dice, end, bare[2], TIMES)} step={number(dice, end/dice.choice([1, 7, 40])/bare[2]*0.999)}")
-    kinds = [kind for kind in language().reports if kind not in BEAM_REPORTS + OWN_CARD_REPORTS + RESPONSE_REPORTS + RANGE_REPORTS
+                     f"end={quantity(dice, end, bare[2], TIMES)} step={number(dice, end/dice.choice([1, 7, 40])/bare[2]*0.999)}{in_time}")
+    kinds = [kind for kind in dict.fromkeys(language().reports) if kind not in BEAM_REPORTS + OWN_CARD_REPORTS + RESPONSE_REPORTS + RANGE_REPORTS
              and dice.chance(0.3)]
     if not any(card.startswith("POINT") for card in cards) and dice.chance(0.9):
         kinds = [kind for kind in kinds if kind != "points"]
-    return cards + ["REPORT " + kind for kind in kinds], bool(rigid)
+    if not measured and dice.chance(0.9):
+        kinds = [kind for kind in kinds if kind != "coordinates"]
+    elif measured and dice.chance(0.7):
+        name = dice.choice(measured).split()[1]
+        kinds = [kind for kind in kinds if kind != "coordinates"]
+        kinds.append("coordinates" + dice.choice(["", f" ratio_to={name}", f" ratio_to={name}", " columns=power,rate"]))
+        if dice.chance(0.1):
+            kinds.append(f"summary of=value:{name},ratio:{dice.choice(measured).split()[1]} ratio_to={name}")
+    return cards + ["REPORT " + kind + " crank=30,200"*(kind == "geometry") for kind in kinds], bool(rigid)
+
+
+def measures(dice, names, pins):
+    """Some MEASURE cards, with what sums add."""
+    chosen = [form for form in MEASURES[:-3] if dice.chance(0.5)]
+    for total in [form for form in chosen if " sum " in form]:
+        chosen += [form for form in MEASURES if form.split()[0] in total.split()[3::2] and form not in chosen]
+    if not chosen or dice.chance(0.1):
+        chosen.append(dice.choice(MEASURES))
+    return ["MEASURE " + form.format(*pins, **dict(zip("abc", names))) for form in chosen]
 
 
 def requests(dice, by_accuracy, own_speed, rigid):

@@ -18,8 +18,8 @@ import tempfile
 from table_tests import Fault, Table
 
 # Keys of reports, and what they are given here; others have no value, or the one that the pattern names.
-VALUES = {"accuracy": "1e-2", "crank": "40,50", "end": "0.02", "fluctuation": "2%", "pins": "yes", "points": "3", "start": "steady",
-          "step": "0.01", "turns": "0.02"}
+VALUES = {"accuracy": "1e-2", "coordinates": "yes", "crank": "40,50", "end": "0.02", "fluctuation": "2%", "pins": "yes", "points": "3",
+          "ratio_to": "lift", "start": "steady", "step": "0.01", "turns": "0.02"}
 QUANTITIES = ["f2,torque,stress", "f2,torque", "torque"]  # of the report that has a list of them: the first that a linkage has
 ONE_VALUE = ["motion", "transient"]  # reports that begin at one angle
 NOT_OF_POSITIONS = ["branches", "equilibrium", "linkage"]  # reports whose rows are no positions, and which so have no dead points
@@ -41,6 +41,8 @@ LINK coupler A B length=279.4 material=steel section=strip
 LINK follower O4 B length=266.7 material=steel section=strip
 MESH * elements=2
 POINT P coupler along=120 offset=-80
+MEASURE lift travel P 0 1
+MEASURE reach distance O2 P
 MODES 2
 SPEED 40 41
 DAMPING * ratio=0.05
@@ -51,6 +53,8 @@ LINK rod A B length=145 mass=1kg inertia=1kg*cm2
 SLIDER B bore mass=1kg
 BRANCH B forward
 POINT P rod along=70 offset=5
+MEASURE lift travel P 0 1
+MEASURE lean angle rod
 FRICTION B bore coefficient=0.1
 SPEED 40 41
 """,
@@ -60,6 +64,8 @@ LINK rod A B C lengths=145,40 turns=20 material=steel section=strip
 SLIDER B bore mass=1e-4
 BRANCH B forward
 POINT P rod along=70 offset=5
+MEASURE lift travel P 0 1
+MEASURE lean angle rod
 MODES 2
 SPEED 100 101
 DAMPING * ratio=0.05
@@ -77,6 +83,8 @@ DRIVE a change_points=branch
 MESH * elements=1
 INERTIA distributed
 POINT P b along=2
+MEASURE lift travel P 0 1
+MEASURE reach distance O2 P
 CRANK 180
 SPEED 2
 """

@@ -142,6 +142,24 @@ module card_table
     card_kind_t("DAMPER", least=3, most=4, pattern="DAMPER name end end damping=, or "// &
       "DAMPER name pin link [link] damping=", keys="damping", &
       help="a viscous damper between two pins or points, or at a pin of links"), &
+    card_kind_t("MEASURE", least=3, most=many, &
+      pattern="MEASURE name distance|angle|along|across|travel|sum ...", &
+      choices="distance angle along across travel sum", &
+      help="a distance, an angle or a place by name, for REPORT coordinates"), &
+    card_kind_t("MEASURE", "distance", least=4, most=4, pattern="MEASURE name distance pin pin", &
+      help="between two pins or points"), &
+    card_kind_t("MEASURE", "angle", least=3, most=5, &
+      pattern="MEASURE name angle link [against link]", choices="against", &
+      help="of a link, from the x axis or from another link"), &
+    card_kind_t("MEASURE", "along", least=4, most=4, &
+      pattern="MEASURE name along pin guide|link", help="the place of a pin along a line"), &
+    card_kind_t("MEASURE", "across", least=4, most=4, &
+      pattern="MEASURE name across pin guide|link", help="of a pin, to the left of a line"), &
+    card_kind_t("MEASURE", "travel", least=5, most=5, pattern="MEASURE name travel pin dx dy", &
+      help="the place of a pin in a fixed direction, from the origin"), &
+    card_kind_t("MEASURE", "sum", least=4, most=many, &
+      pattern="MEASURE name sum weight name [weight name ...]", &
+      help="of others, of springs, rams and sliders, each with its weight"), &
     card_kind_t("FRICTION", least=1, most=3, pattern="FRICTION pin [link [link]] radius= "// &
       "coefficient= [viscous= smooth=], or FRICTION pin guide with [length=] for radius=", &
       keys="radius coefficient viscous smooth length", &

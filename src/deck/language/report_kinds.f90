@@ -27,7 +27,7 @@ module report_kinds
   !! that ends with `*` stands for a series of numbered columns; one that ends with `?` is omitted
   !! in some tables.
   type :: table_kind_t
-    character(len=16) :: name = ""     !! of the table; blank: unused record
+    character(len=24) :: name = ""     !! of the table; blank: unused record
     character(len=320) :: columns = "" !! with units, as above
     logical :: has_blocks = .true.     !! empty lines separate the variants of a deck
   end type table_kind_t
@@ -49,7 +49,7 @@ module report_kinds
                                       !! without it
     integer :: linkages = any_linkage !! that it is about; two records may have one name
     integer :: numbers = 0            !! how many numbers its studies keep for each position
-    type(table_kind_t) :: tables(3)   !! those with a name
+    type(table_kind_t) :: tables(4)   !! those with a name
   end type report_kind_t
 
   !> One column, or a series of numbered columns.

@@ -12,7 +12,8 @@ module summary_quantities
     quantity_name, column_names, is_summary_column
 
   type :: quantity_kind_t
-    character(len=20) :: name = ""       !! `*` at its end stands for the number of a mode
+    character(len=20) :: name = ""       !! `*` at its end stands for the number of a mode; `:`
+                                         !! stands before the name of a coordinate
     character(len=8) :: unit = ""        !! of its values, as in the table of reports
     character(len=12) :: report = ""     !! with its values at every position
     logical :: of_four_bars = .false.    !! no other linkage has it
@@ -23,7 +24,8 @@ module summary_quantities
   !> A quantity that a card asks for.
   type :: quantity_t
     integer :: kind = 0 !! number among `quantity_kinds`; 0: none
-    integer :: mode = 0 !! of those with a number
+    integer :: mode = 0 !! of those with a number; of a coordinate its number, once it is looked up
+    character(len=64) :: of = "" !! name of the coordinate
   end type quantity_t
 
   type(quantity_kind_t), parameter :: quantity_kinds(*) = [ &
@@ -48,7 +50,15 @@ module summary_quantities
     quantity_kind_t("displacement", "length", "response", .false., .true., &
     "the greatest distance of all pins and points from where rigid links hold them"), &
     quantity_kind_t("elastic_torque", "moment", "torque", .false., .true., &
-    "total torque of the drive of the elastic linkage")]
+    "total torque of the drive of the elastic linkage"), &
+    quantity_kind_t("value:", "length", "coordinates", .false., .false., &
+    "length, place or angle of the coordinate"), &
+    quantity_kind_t("rate:", "velocity", "coordinates", .false., .false., "how fast it changes"), &
+    quantity_kind_t("effort:", "force", "coordinates", .false., .false., &
+    "force or moment of its spring, damper or drive"), &
+    quantity_kind_t("power:", "power", "coordinates", .false., .false., "of this effort"), &
+    quantity_kind_t("ratio:", "-", "coordinates", .false., .false., &
+    "change of the coordinate per change of that of ratio_to=")]
 
   !> What a table has of every quantity. Where a value is stands behind the least and the greatest.
   character(len=*), parameter :: values_of(4) = [character(len=8) :: "least", "mean", "greatest", &
@@ -56,15 +66,25 @@ module summary_quantities
 
 contains
 
-  !> The quantity of a name in any case of letters; of kind 0 if there is none.
+  !> The quantity of a name in any case of letters; of kind 0 if there is none. Whether there is the
+  !! coordinate of `value:NAME` is not looked up.
   pure function find_quantity(word) result(quantity)
-    character(len=*), intent(in) :: word !! `torque`, `f3`
+    character(len=*), intent(in) :: word !! `torque`, `f3`, `value:NAME`
     type(quantity_t) :: quantity
 
     type(error_t), allocatable :: error
     character(len=:), allocatable :: name
     integer :: i, last, mode
 
+    last = index(word, ":")
+    if (last > 0) then
+      if (len(word) == last .or. len(word) > last + len(quantity%of)) return
+      do i = 1, size(quantity_kinds)
+        if (quantity_kinds(i)%name == lower_case(word(:last))) quantity = quantity_t(i, 0, &
+          word(last + 1:))
+      end do
+      return
+    end if
     name = lower_case(word)
     do i = 1, size(quantity_kinds)
       if (quantity_kinds(i)%name == name) quantity = quantity_t(i, 0)
@@ -97,11 +117,11 @@ contains
 
     allocate (names(0))
     do i = 1, size(quantity_kinds)
-      call append_string(names, quantity_name(quantity_t(i, 1)))
+      call append_string(names, quantity_name(quantity_t(i, 1, "NAME")))
     end do
   end function quantity_names
 
-  !> `torque`, `f3`
+  !> `torque`, `f3`, `value:NAME`
   pure function quantity_name(quantity) result(name)
     type(quantity_t), intent(in) :: quantity !! that exists
     character(len=:), allocatable :: name
@@ -109,6 +129,7 @@ contains
     name = trim(quantity_kinds(quantity%kind)%name)
     if (is_numbered(quantity_kinds(quantity%kind))) name = name(:len(name) - 1)// &
       to_string(quantity%mode)
+    if (name(len(name):) == ":") name = name//trim(quantity%of)
   end function quantity_name
 
   !> The columns of a quantity: `torque_least`, its place (`torque_least_crank`), `torque_mean`,
@@ -122,6 +143,8 @@ contains
     integer :: i, k
 
     name = quantity_name(quantity)
+    i = index(name, ":")
+    if (i > 0) name(i:i) = "_"
     allocate (names(0))
     do i = 1, size(values_of)
       if (values_of(i) == "error" .and. .not. quantity_kinds(quantity%kind)%has_error) cycle

@@ -16,8 +16,8 @@ module applied_loads
 
   public :: add_conservative_loads, add_prescribed_loads, add_standing_loads, add_moving_loads, &
     is_moving, moving_force, moving_couple, forced_places, forces_at_places, &
-    applied_potential, generalised_force, has_standing_loads, has_moving_loads, spring_pulls, &
-    damper_pulls, spring_scale, load_switches, turns_over
+    applied_potential, generalised_force, has_standing_loads, has_moving_loads, spring_pull, &
+    spring_pulls, damper_pull, damper_pulls, spring_scale, load_switches, turns_over
 
 contains
 
@@ -213,8 +213,8 @@ contains
           body_load(load%body(1))%moment = body_load(load%body(1))%moment + &
             moving_couple(linkage, pose, now, load)
         case default
-          call add_pull(linkage, pose, load, damper_pull(linkage, pose, now, load), body_load, &
-            pin_load)
+          call add_pull(linkage, pose, load, damper_pull(load, load_rate(linkage, pose, now, &
+            load)), body_load, pin_load)
         end select
       end associate
     end do
@@ -285,7 +285,7 @@ contains
     do i = 1, size(pull)
       associate (load => linkage%loads(i))
         if (is_moving(load) .and. any(load%kind == [applies_along, applies_between])) pull(i) = &
-          damper_pull(linkage, pose, now, load)
+          damper_pull(load, load_rate(linkage, pose, now, load))
       end associate
     end do
   end function damper_pulls
@@ -298,25 +298,22 @@ contains
     if (allocated(linkage%loads)) number = size(linkage%loads)
   end function load_count
 
+  !> How a spring pulls, or turns bodies back [N] or [N m].
   pure function spring_pull(linkage, pose, load) result(pull)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(applied_load_t), intent(in) :: load
+    type(linkage_t), intent(in) :: linkage   !! of this load
+    type(pose_t), intent(in) :: pose         !! positions and directions
+    type(applied_load_t), intent(in) :: load !! along a line or between two bodies
     real(wp) :: pull
 
     pull = load%tension + load%stiffness*load_deflection(linkage, pose, load)
   end function spring_pull
 
-  pure function damper_pull(linkage, pose, now, load) result(pull)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: now
-    type(applied_load_t), intent(in) :: load
+  !> How a damper does, at a rate of its coordinate [N] or [N m].
+  pure function damper_pull(load, rate) result(pull)
+    type(applied_load_t), intent(in) :: load !! along a line or between two bodies
+    real(wp), intent(in) :: rate             !! [m/s] or [rad/s]
     real(wp) :: pull
 
-    real(wp) :: rate
-
-    rate = load_rate(linkage, pose, now, load)
     pull = load%damping*rate + resistance(load, rate)
   end function damper_pull
 

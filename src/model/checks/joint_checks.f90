@@ -13,7 +13,7 @@ module joint_checks
   implicit none (type, external)
   private
 
-  public :: check_joints, joins, seek_pin
+  public :: check_joints, joins, seek_pin, find_way
 
 contains
 
@@ -305,7 +305,7 @@ contains
     ground = find_name(grounds, slider%pin%text)
     known = ground > 0
     if (.not. known) call seek_pin(slider%pin, pins, links, diagnostics, known)
-    call find_way(diagnostics, model, links, guides, slider)
+    call find_way(diagnostics, model, links, guides, slider%on, slider%guide, slider%link)
     if (slider%guide > 0 .and. ground > 0) then
       call add_error(diagnostics, slider%pin, "'"//slider%pin%text//"' is fixed and cannot "// &
         "slide along a guide", model%grounds(ground)%pin, "it is fixed here")
@@ -320,24 +320,26 @@ contains
       "turn: 'inertia=' has no meaning here")
   end subroutine find_slider
 
-  !> Looks up the guide or link that a block slides along.
-  pure subroutine find_way(diagnostics, model, links, guides, slider)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(in) :: model
-    type(name_index_t), intent(in) :: links, guides
-    type(slider_card_t), intent(inout) :: slider
+  !> Looks up a guide or a link, along which a block slides or a place is measured. Errors: it is
+  !! neither, or both.
+  pure subroutine find_way(diagnostics, model, links, guides, word, guide, link)
+    type(diagnostics_t), intent(inout) :: diagnostics   !! errors are added
+    type(model_t), intent(in) :: model                  !! its guides
+    type(name_index_t), intent(in) :: links, guides     !! of the deck
+    type(token_t), intent(in) :: word                   !! the name, in the deck
+    integer, intent(out) :: guide, link                 !! its number, and 0; both 0: unknown
 
     type(string_t), allocatable :: names(:)
     integer :: i
 
-    slider%guide = find_name(guides, slider%on%text)
-    slider%link = find_name(links, slider%on%text)
-    if (slider%guide > 0 .and. slider%link > 0) then
-      call add_error(diagnostics, slider%on, "'"//slider%on%text//"' is a guide and a link; "// &
-        "here either may stand, so they need different names", model%guides(slider%guide)%name, &
+    guide = find_name(guides, word%text)
+    link = find_name(links, word%text)
+    if (guide > 0 .and. link > 0) then
+      call add_error(diagnostics, word, "'"//word%text//"' is a guide and a link; "// &
+        "here either may stand, so they need different names", model%guides(guide)%name, &
         "the guide is here")
-      slider%link = 0
-    else if (slider%guide == 0 .and. slider%link == 0) then
+      link = 0
+    else if (guide == 0 .and. link == 0) then
       allocate (names(size(guides%name) + size(links%name)))
       do i = 1, size(guides%name)
         names(i)%text = guides%name(i)%text
@@ -345,8 +347,8 @@ contains
       do i = 1, size(links%name)
         names(size(guides%name) + i)%text = links%name(i)%text
       end do
-      call add_error(diagnostics, slider%on, "unknown guide or link '"//slider%on%text//"'"// &
-        suggestion(slider%on%text, names))
+      call add_error(diagnostics, word, "unknown guide or link '"//word%text//"'"// &
+        suggestion(word%text, names))
     end if
   end subroutine find_way
 

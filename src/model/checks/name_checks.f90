@@ -10,7 +10,7 @@ module name_checks
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use errors, only: error_of_input, error_of_writing
   use link_cards, only: link_t
-  use models, only: is_four_bar, model_t
+  use models, only: is_end_of_measure, is_four_bar, model_t
   use name_index, only: find_name, name_index_t, new_name_index
   use process_cards, only: process_resistance
   use spelling, only: suggestion
@@ -64,6 +64,7 @@ contains
     call refuse_same(model%torques%link_name, "torque on link")
     call refuse_same(subjects_of(model, .true.), "load on")
     call refuse_same(model%springs%name, "spring or damper")
+    call refuse_same(model%measures%name, "measure")
     do i = 2, size(model%reports)
       do j = 1, min(i - 1, most_reports)
         if (len_trim(model%reports(i)%kind%name) == 0 .or. &
@@ -228,6 +229,7 @@ contains
       if (find_name(blocks, model%grounds(i)%pin%text) > 0) cycle
       if (find_name(springs(1), model%grounds(i)%pin%text) > 0) cycle
       if (find_name(springs(2), model%grounds(i)%pin%text) > 0) cycle
+      if (is_end_of_measure(model, model%grounds(i)%pin%text)) cycle
       call add_error(diagnostics, model%grounds(i)%pin, "no link uses the ground pivot '"// &
         model%grounds(i)%pin%text//"'")
     end do

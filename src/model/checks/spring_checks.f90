@@ -16,7 +16,7 @@ module spring_checks
   implicit none (type, external)
   private
 
-  public :: read_springs, check_springs, is_on_link
+  public :: read_springs, check_springs, is_on_link, seek_place, check_ends, refuse_still_links
 
   !> Relative difference of a length from that in the drawing that is more than rounding [-].
   real(wp), parameter :: least_difference = 1.0e-4_wp
@@ -105,7 +105,8 @@ contains
       else
         if (spring%ends(2)%line == 0) cycle
         call seek_place(spring%ends(2), links, pins, grounds, diagnostics, fine, fine)
-        if (fine) call check_ends(diagnostics, model, grounds, spring, fine)
+        if (fine) call check_ends(diagnostics, model, grounds, spring%ends, &
+          needs_frequencies(model) .or. needs_response(model), fine)
       end if
       if (fine) call check_drawn(diagnostics, model, spring)
       model%springs(i)%link = spring%link
@@ -115,10 +116,10 @@ contains
 
   !> Looks up an end: a pin of a link, a point or a ground pivot.
   pure subroutine seek_place(word, links, pins, grounds, diagnostics, known, others)
-    type(token_t), intent(in) :: word
-    type(name_index_t), intent(in) :: links, pins, grounds
-    type(diagnostics_t), intent(inout) :: diagnostics
-    logical, intent(inout) :: known
+    type(token_t), intent(in) :: word                   !! the name, in the deck
+    type(name_index_t), intent(in) :: links, pins, grounds !! of the deck
+    type(diagnostics_t), intent(inout) :: diagnostics   !! errors are added
+    logical, intent(inout) :: known                     !! whether it is one, and so `others`
     logical, intent(in), optional :: others !! whether what is before it on the card is known
 
     integer :: number
@@ -137,20 +138,20 @@ contains
     if (present(others)) known = known .and. others
   end subroutine seek_place
 
-  !> Checks the ends of a line.
-  pure subroutine check_ends(diagnostics, model, grounds, spring, fine)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(in) :: model
-    type(name_index_t), intent(in) :: grounds
-    type(spring_card_t), intent(in) :: spring
-    logical, intent(out) :: fine
+  !> Checks the ends of a line. Errors: they are one place, both fixed, on one link or on welded
+  !! ones.
+  pure subroutine check_ends(diagnostics, model, grounds, ends, bends, fine)
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(model_t), intent(in) :: model                !! its links and welds
+    type(name_index_t), intent(in) :: grounds         !! of the deck
+    type(token_t), intent(in) :: ends(2)              !! known places
+    logical, intent(in) :: bends                      !! links bend, and ends on one may move
+    logical, intent(out) :: fine                      !! the line has no such error
 
-    logical :: bends
     integer :: i
 
     fine = .false.
-    bends = needs_frequencies(model) .or. needs_response(model)
-    associate (one => spring%ends(1), other => spring%ends(2))
+    associate (one => ends(1), other => ends(2))
       if (same_word(one%text, other%text)) then
         call add_error(diagnostics, other, "both ends are at '"//one%text//"'", one, &
           "the first is here")
@@ -245,22 +246,35 @@ contains
         "' moves: between one link and the ground it must be a ground pivot; else name two links")
       return
     end if
-    if (spring%link(1) == spring%link(2)) then
-      call add_error(diagnostics, spring%link_names(2), &
-        "both links are one: nothing turns between them", spring%link_names(1), &
-        "the first is here")
+    call refuse_still_links(diagnostics, model, spring%link_names, spring%link, fine)
+  end subroutine check_turning
+
+  !> Refuses an angle between a link and itself, or one that is welded to it.
+  pure subroutine refuse_still_links(diagnostics, model, names, link, fine)
+    type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
+    type(model_t), intent(in) :: model                !! its welds
+    type(token_t), intent(in) :: names(2)             !! in the deck
+    integer, intent(in) :: link(2)                    !! numbers in the model's list
+    logical, intent(out) :: fine                      !! they turn against each other
+
+    integer :: k
+
+    fine = .false.
+    if (link(1) == link(2)) then
+      call add_error(diagnostics, names(2), "both links are one: nothing turns between them", &
+        names(1), "the first is here")
       return
     end if
     do k = 1, size(model%welds)
-      if (.not. any(model%welds(k)%link == spring%link(1)) .or. .not. &
-        any(model%welds(k)%link == spring%link(2))) cycle
-      call add_error(diagnostics, spring%link_names(2), "links '"//spring%link_names(1)%text// &
-        "' and '"//spring%link_names(2)%text//"' are welded: nothing turns between them", &
-        model%welds(k)%pin, "they are welded here")
+      if (.not. any(model%welds(k)%link == link(1)) .or. .not. any(model%welds(k)%link == &
+        link(2))) cycle
+      call add_error(diagnostics, names(2), "links '"//names(1)%text//"' and '"// &
+        names(2)%text//"' are welded: nothing turns between them", model%welds(k)%pin, &
+        "they are welded here")
       return
     end do
     fine = .true.
-  end subroutine check_turning
+  end subroutine refuse_still_links
 
   !> A spring without its free length or angle takes it from the drawing, which then must show all
   !! of it and be a position of the linkage.

@@ -58,6 +58,7 @@ module report_cards
     real(wp) :: time_step = 0.0_wp   !! between rows [s]
     type(value_list_t) :: instants   !! of the rows [s]
     logical :: with_pins = .false.   !! with a table of the places of the pins
+    logical :: with_coordinates = .false. !! with a table of springs, sliders and measures
     logical :: through = .false.     !! straight through change points
     logical :: with_accelerations = .false., with_forces = .false., with_power = .false. !! columns
     type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word, &
@@ -68,6 +69,8 @@ module report_cards
     real(wp) :: about(2) = 0.0_wp    !! in global axes [m]
     real(wp) :: fluctuation = 0.0_wp !! of REPORT sizing; 0: no flywheel is asked for [-]
     type(token_t) :: about_pin       !! value of `about=pin`; without a line if it is not given
+    type(token_t) :: ratio_to        !! of coordinates and summary; likewise
+    integer :: reference = 0         !! number of that coordinate; 0: no ratios are asked for
     type(summary_card_t) :: summary  !! REPORT summary
     type(token_t), allocatable :: columns(:) !! `columns=` of all but motion: what its first table
                                      !! has; not allocated: all
@@ -108,6 +111,7 @@ contains
     report%end_time_word = token_t("", 0, 0)
     report%time_step_word = token_t("", 0, 0)
     report%about_pin = token_t("", 0, 0)
+    report%ratio_to = token_t("", 0, 0)
     report%format_word = token_t("", 0, 0)
     report%through_word = token_t("", 0, 0)
     report%forces_word = token_t("", 0, 0)
@@ -132,6 +136,7 @@ contains
       call read_choice(report%format_word, format_words, diagnostics, report%format)
     end if
     if (report%kind%response) call read_response(card, system, diagnostics, report)
+    if (has_value(card, "ratio_to")) report%ratio_to = value_of(card, "ratio_to")
     select case (report%kind%name)
     case ("shapes")
       call read_shapes(card, lengths, system, diagnostics, report)
@@ -288,7 +293,7 @@ contains
   end subroutine read_geometry
 
   !> Reads `REPORT motion crank= [speed=0] end= step= [columns=] [pins=no|yes]
-  !! [change_points=stop|through]`.
+  !! [coordinates=no|yes] [change_points=stop|through]`.
   pure subroutine read_motion(card, known_keys, by_length, system, diagnostics, report)
     type(card_t), intent(in) :: card
     logical, intent(in) :: known_keys !! no key is unknown: missing ones are an error
@@ -324,6 +329,10 @@ contains
     if (has_value(card, "pins")) then
       call read_choice(value_of(card, "pins"), "no yes", diagnostics, choice)
       report%with_pins = choice == 2
+    end if
+    if (has_value(card, "coordinates")) then
+      call read_choice(value_of(card, "coordinates"), "no yes", diagnostics, choice)
+      report%with_coordinates = choice == 2
     end if
     call read_columns(card, diagnostics, report)
     if (has_value(card, "change_points")) then

@@ -6,7 +6,7 @@ module summary_cards
   use spelling, only: suggestion
   use summary_quantities, only: find_quantity, quantity_kinds, quantity_name, quantity_names, &
     quantity_t
-  use text, only: joined, string_t
+  use text, only: joined, same_word, string_t
   use tokens, only: token_t
   use value_lists, only: find_items
   implicit none (type, external)
@@ -81,7 +81,8 @@ contains
     integer :: number
 
     do number = size(list), 1, -1
-      if (list(number)%kind == quantity%kind .and. list(number)%mode == quantity%mode) return
+      if (list(number)%kind == quantity%kind .and. list(number)%mode == quantity%mode .and. &
+        same_word(trim(list(number)%of), trim(quantity%of))) return
     end do
   end function number_among
 

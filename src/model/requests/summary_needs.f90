@@ -1,6 +1,7 @@
 !> What REPORT summary needs: all that the reports need which have its quantities.
 module summary_needs
   use diagnostics, only: add_error, diagnostics_t
+  use drive_cards, only: moves_along
   use models, only: is_damped, model_t
   use report_kinds, only: kind_of_linkage, report_kind_t
   use report_cards, only: report_t
@@ -10,7 +11,7 @@ module summary_needs
   implicit none (type, external)
   private
 
-  public :: take_needs
+  public :: take_needs, add_forces_of_drives
 
 contains
 
@@ -44,12 +45,23 @@ contains
           else
             summary%reports(i) = kind%report
             call join(reports(kind_of_linkage(reports, trim(kind%report), four_bar)), report%kind)
+            if (kind%report == "coordinates") call add_forces_of_drives(model, report%kind)
           end if
         end associate
       end do
     end associate
 
   end subroutine take_needs
+
+  !> A report on coordinates needs forces, if a drive moves along one of them.
+  pure subroutine add_forces_of_drives(model, kind)
+    type(model_t), intent(in) :: model           !! with its drives
+    type(report_kind_t), intent(inout) :: kind   !! of the report
+
+    if (.not. any(moves_along(model%drives%kind))) return
+    kind%masses = .true.
+    if (index(kind%studies, "joints") == 0) kind%studies = trim(kind%studies)//" joints"
+  end subroutine add_forces_of_drives
 
   !> Errors: a mode that is not asked for.
   pure subroutine refuse_mode(model, quantity, word, diagnostics)

@@ -7,6 +7,7 @@ module motion_report
   use kinds, only: long, wp
   use load_notes, only: potential_note, work_note
   use models, only: drives_length, is_of_four_bar, model_t, report_number
+  use motion_coordinates_report, only: motion_coordinates_table_t
   use motion_forces_report, only: motion_forces_table_t
   use motion_pins_report, only: add_early_end, motion_pins_table_t, time_in_table
   use motion_study, only: free_drives, motion_result_t, motion_tolerance, undetermined_message
@@ -37,7 +38,7 @@ module motion_report
 
   character(len=*), parameter :: line_feed = achar(10), default = "speed=0 pins=no", &
     pattern = "REPORT motion crank= [speed=0] end= step= [columns=accelerations,forces,power] "// &
-    "[pins=no|yes] [change_points=stop|through] [format=]"
+    "[pins=no|yes] [coordinates=no|yes] [change_points=stop|through] [format=]"
 
   !> `motion.dat`.
   type, extends(whole_table_t) :: motion_table_t
@@ -58,6 +59,8 @@ contains
       pattern=pattern, default=default, studies="motion", masses=.true., linkages=four_bars)
     call add_table(report, motion_table_t(), "motion", motion_columns, words=motion_words())
     call add_table(report, motion_pins_table_t(), "motion_pins", "time:time pin:name x,y:length")
+    call add_table(report, motion_coordinates_table_t(), "motion_coordinates", "time:time "// &
+      "coordinate:name value,rate,acceleration,effort:see_head power:power")
   end subroutine describe_motion
 
   !> REPORT motion of other linkages.
@@ -71,6 +74,8 @@ contains
       "rate*:rate torque:moment kinetic,potential,work,energy_error:energy "// &
       "acceleration*:rad/s2 motor_power,gear_loss,load_power:power")
     call add_table(report, motion_pins_table_t(), "motion_pins", "time:time pin:name x,y:length")
+    call add_table(report, motion_coordinates_table_t(), "motion_coordinates", "time:time "// &
+      "coordinate:name value,rate,acceleration,effort:see_head power:power")
     call add_table(report, motion_forces_table_t(), "motion_forces", "time:time pin,"// &
       "link:name fx,fy:force moment:moment")
   end subroutine describe_linkage_motion

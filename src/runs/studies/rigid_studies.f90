@@ -3,9 +3,10 @@ module rigid_studies
   use body_attachments, only: body_point_t
   use balance_requests, only: balance_request_of
   use balance_study, only: balance_request_t, find_balance
+  use coordinates_report, only: find_lost_coordinate
   use drive_motions, only: drive_rates
   use equilibrium_study, only: find_equilibria
-  use errors, only: error_of_input, error_t, set_error
+  use errors, only: error_of_input, error_of_numerics, error_t, set_error
   use friction_study, only: find_joint_friction
   use geometry_study, only: find_geometry
   use harmonics_study, only: find_harmonics, has_settled
@@ -15,7 +16,7 @@ module rigid_studies
   use kinds, only: wp
   use lagrange_study, only: find_lagrange_terms
   use limits_study, only: find_branches, find_limits
-  use models, only: balances, has_law, is_of_four_bar, model_t, report_number
+  use models, only: balances, has_law, is_of_four_bar, model_t, report_number, report_with
   use named_parts, only: name_outcomes
   use points_study, only: find_points
   use position_loads, only: elastic_division_t, fail_everywhere, find_division, take_failures
@@ -44,6 +45,7 @@ contains
       add_failures=add_geometry_failures, add_work=add_geometry_work))
     call add_study(list, study_t("inertia", compute=compute_inertia))
     call add_study(list, study_t("points", compute=compute_points))
+    call add_study(list, study_t("coordinates", add_failures_at=add_lost_coordinates))
     call add_study(list, study_t("joints", compute=compute_joints, &
       add_failures_at=add_open_joints, add_work=add_torque_range))
     call add_study(list, study_t("friction", compute=compute_friction))
@@ -295,6 +297,22 @@ contains
       call note_at_position(variant, position, error, findings)
     end associate
   end subroutine add_open_joints
+
+  !> A position at which a coordinate has no rate, or nothing a ratio.
+  pure subroutine add_lost_coordinates(variant, position, findings)
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: position
+    type(findings_t), intent(inout) :: findings
+
+    type(error_t), allocatable :: error
+    character(len=:), allocatable :: words
+
+    if (report_with(variant%model, "coordinates") == 0) return
+    words = find_lost_coordinate(variant, position)
+    if (len(words) == 0) return
+    call set_error(error, error_of_numerics, words)
+    call note_at_position(variant, position, error, findings)
+  end subroutine add_lost_coordinates
 
   pure subroutine add_balance_failures(variant, findings)
     type(variant_results_t), intent(in) :: variant

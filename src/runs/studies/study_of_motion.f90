@@ -7,6 +7,7 @@ module study_of_motion
   use geometry_study, only: find_moving_geometry
   use joints_report, only: open_words
   use kinds, only: wp
+  use mechanisms, only: mechanism_t
   use models, only: model_t, motion_goes_through, report_number
   use motion_study, only: begin_motion, continue_motion, finish_motion, motion_request_t, &
     motion_under_way_t, undetermined_message
@@ -47,7 +48,7 @@ contains
 
     associate (mechanism => run%results%mechanism, motion => run%results%found%motion, &
         points => run%results%mechanism%points)
-      call begin_motion(motion_request_of(run%results%model), mechanism%linkage, &
+      call begin_motion(motion_request_of(run%results%model, mechanism), mechanism%linkage, &
         mechanism%load_elements, under_way, motion, mechanism%structure_t)
       do while (.not. under_way%is_over)
         call continue_motion(under_way, instants_at_a_time, motion)
@@ -62,9 +63,12 @@ contains
   end subroutine compute_motion
 
   !> The requested motion.
-  pure function motion_request_of(model) result(request)
-    type(model_t), intent(in) :: model !! with REPORT motion
+  pure function motion_request_of(model, mechanism) result(request)
+    type(model_t), intent(in) :: model         !! with REPORT motion
+    type(mechanism_t), intent(in) :: mechanism !! of this model
     type(motion_request_t) :: request
+
+    integer :: i
 
     associate (asked => model%reports(report_number(model, "motion")))
       request%start = asked%start_angle
@@ -73,8 +77,19 @@ contains
       request%instants = asked%instants%value
       request%with_pins = asked%with_pins .or. report_number(model, "geometry") > 0
       request%through = motion_goes_through(model)
-      request%with_forces = asked%with_forces
-      request%with_details = asked%with_accelerations .or. asked%with_forces .or. asked%with_power
+      if (asked%with_coordinates) then
+        request%load = mechanism%coordinates%load
+        request%held_by = mechanism%coordinates%drive
+        ! Free drives but the first have no force.
+        do i = 1, size(request%held_by)
+          if (request%held_by(i) > 1) request%held_by(i) = merge(0, request%held_by(i), &
+            model%drives(request%held_by(i))%is_free)
+        end do
+        request%with_forces = any(request%held_by > 1)
+      end if
+      request%with_forces = request%with_forces .or. asked%with_forces
+      request%with_details = asked%with_accelerations .or. request%with_forces .or. &
+        asked%with_power .or. asked%with_coordinates
     end associate
     request%is_free = model%drives%is_free
     request%drive = drive_of(model)
@@ -174,6 +189,7 @@ contains
 
     integer, parameter :: numbers = 56 !! of a sample, with what its arrays take beside them
     integer, parameter :: of_joint = 3 !! numbers of a joint
+    integer, parameter :: numbers_of_coordinate = 5
     integer :: report, pins, columns, i
 
     report = report_number(model, "motion")
@@ -185,7 +201,9 @@ contains
       size(model%sliders)
     columns = 0
     associate (asked => model%reports(report))
-      if (asked%with_accelerations) columns = max(3, size(model%drives))
+      if (asked%with_coordinates) columns = numbers_of_coordinate*(size(model%springs) + &
+        size(model%drives) + size(model%sliders) + size(model%measures))
+      if (asked%with_accelerations) columns = columns + max(3, size(model%drives))
       if (asked%with_power) columns = columns + 3
       if (asked%with_forces) columns = columns + of_joint*(sum([(size(model%links(i)%pins), &
         i=1, size(model%links))]) + size(model%sliders))

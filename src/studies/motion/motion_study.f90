@@ -5,6 +5,7 @@
 
 !> Forward dynamics: the motion of a linkage under given loads, sampled at given instants.
 module motion_study
+  use coordinate_study, only: coordinate_state, coordinate_state_t
   use drives, only: motor_drive_t
   use elastic_reactions, only: divide_motion, elastic_division_t, new_elastic_division
   use errors, only: error_of_numerics, error_of_reach, error_t, set_error
@@ -40,6 +41,9 @@ module motion_study
     type(gear_t) :: gear                 !! between them
     logical :: with_details = .false.    !! accelerations and powers are wanted
     logical :: with_forces = .false.     !! forces in the joints are wanted, and the former
+    integer, allocatable :: load(:)      !! (coordinates) number of the spring or damper of each; 0:
+                                         !! none. Not allocated: coordinates are not wanted
+    integer, allocatable :: held_by(:)   !! (coordinates) number of the drive of each; 0: none
     logical :: with_pins = .false.       !! the places of all pins are wanted
     logical :: through = .false.         !! straight through change points, in place of a stop there
   end type motion_request_t
@@ -67,6 +71,7 @@ module motion_study
     real(wp), allocatable :: force(:, :, :)            !! (3, joints, instants) fx, fy, moment
                                                        !! [N, N m]
     logical, allocatable :: is_open(:, :)              !! (joints, instants) as in `joint_study`
+    type(coordinate_state_t), allocatable :: coordinates(:, :) !! (coordinates, instants)
   end type motion_result_t
 
   !> What is said of an instant without details.
@@ -105,6 +110,8 @@ contains
     if (request%with_details) allocate (result%is_determined(size(request%instants)), &
       result%acceleration(merge(3, size(free_drives(request%is_free)), has_loop(linkage)), &
       size(request%instants)), result%power(3, size(request%instants)))
+    if (allocated(request%load)) allocate (result%coordinates(size(request%load), &
+      size(request%instants)))
     if (request%with_forces) then
       call list_joints(linkage, result%joints)
       allocate (result%force(3, size(result%joints), size(request%instants)))
@@ -181,7 +188,32 @@ contains
     result%power(:, number) = [details%driven%power, details%driven%loss, details%load_power]
     if (under_way%request%with_forces) result%force(:, :, number) = joint_values( &
       under_way%linkage, result%joints, details%joints, details%direction, details%turning)
+    if (allocated(under_way%request%load)) call take_coordinates(under_way, details, &
+      result%coordinates(:, number))
   end subroutine take_details
+
+  !> Coordinates at an instant. What holds them is the motor, or the force of a drive.
+  subroutine take_coordinates(under_way, details, states)
+    type(motion_under_way_t), intent(in) :: under_way
+    type(linkage_details_t), intent(in) :: details
+    type(coordinate_state_t), intent(out) :: states(:)
+
+    real(wp) :: force
+    integer :: i
+
+    do i = 1, size(states)
+      associate (drive => under_way%request%held_by(i))
+        force = 0.0_wp
+        if (drive == 1) then
+          force = details%driven%torque
+        else if (drive > 1) then
+          force = details%joints%drive(drive)
+        end if
+      end associate
+      states(i) = coordinate_state(under_way%linkage, details%pose, details%motion, &
+        details%pose%crank, i, under_way%request%load(i), force, [1.0_wp, 0.0_wp])
+    end do
+  end subroutine take_coordinates
 
   !> Ends a motion and completes its result.
   !!

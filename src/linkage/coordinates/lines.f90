@@ -1,0 +1,64 @@
+!> Places of the second terminal along and across the line of the first: s = e·(P₂ − P₁) with the
+!! unit vector e along the line, or its normal, both turning with the first terminal.
+module lines
+  use coordinate_types, only: frame_t, twist_t
+  use kinds, only: wp
+  use linkages, only: normal_to
+  implicit none (type, external)
+  private
+
+  public :: line_value, line_rate, line_acceleration
+
+contains
+
+  pure function line_value(frame, is_across) result(value)
+    type(frame_t), intent(in) :: frame(2)
+    logical, intent(in) :: is_across !! to the left of the line; else along it
+    real(wp) :: value                !! [m]
+
+    value = dot_product(axis_of(frame, is_across), frame(2)%place - frame(1)%place)
+  end function line_value
+
+  pure function axis_of(frame, is_across) result(axis)
+    type(frame_t), intent(in) :: frame(2)
+    logical, intent(in) :: is_across
+    real(wp) :: axis(2)
+
+    axis = frame(1)%direction
+    if (is_across) axis = normal_to(axis)
+  end function axis_of
+
+  !> e·(v₂ − v₁) + ω n·(P₂ − P₁), for e turns with n ω.
+  pure function line_rate(frame, twist, is_across) result(rate)
+    type(frame_t), intent(in) :: frame(2)
+    type(twist_t), intent(in) :: twist(2)
+    logical, intent(in) :: is_across
+    real(wp) :: rate
+
+    real(wp) :: axis(2)
+
+    axis = axis_of(frame, is_across)
+    rate = dot_product(axis, twist(2)%velocity - twist(1)%velocity) + &
+      twist(1)%turn*dot_product(normal_to(axis), frame(2)%place - frame(1)%place)
+  end function line_rate
+
+  !> e·(a₂ − a₁) + 2 ω n·(v₂ − v₁) + α n·(P₂ − P₁) − ω² s.
+  pure function line_acceleration(frame, twist, slope, is_across) result(acceleration)
+    type(frame_t), intent(in) :: frame(2)
+    type(twist_t), intent(in) :: twist(2), slope(2) !! velocities; accelerations
+    logical, intent(in) :: is_across
+    real(wp) :: acceleration
+
+    real(wp) :: axis(2), normal(2), way(2)
+
+    axis = axis_of(frame, is_across)
+    normal = normal_to(axis)
+    way = frame(2)%place - frame(1)%place
+    associate (turn => twist(1)%turn)
+      acceleration = dot_product(axis, slope(2)%velocity - slope(1)%velocity) + &
+        2.0_wp*turn*dot_product(normal, twist(2)%velocity - twist(1)%velocity) + &
+        slope(1)%turn*dot_product(normal, way) - turn**2*dot_product(axis, way)
+    end associate
+  end function line_acceleration
+
+end module lines

@@ -1,0 +1,72 @@
+!> Where terminals are, and how they move.
+module terminals
+  use coordinate_types, only: frame_t, terminal_t, twist_t
+  use kinds, only: wp
+  use linkages, only: linkage_t, normal_to, turned
+  use pose_types, only: kinematic_coefficients_t, pose_t
+  implicit none (type, external)
+  private
+
+  public :: terminal_frame, terminal_twist, terminal_acceleration
+
+contains
+
+  !> Place and direction of a terminal.
+  pure function terminal_frame(linkage, pose, at) result(frame)
+    type(linkage_t), intent(in) :: linkage !! first pins of its bodies
+    type(pose_t), intent(in) :: pose       !! positions and directions
+    type(terminal_t), intent(in) :: at
+    type(frame_t) :: frame
+
+    if (at%body > 0) then
+      frame%place = pose%pin(:, linkage%bodies(at%body)%first_pin) + turned(at%place, &
+        pose%direction(:, at%body))
+      frame%direction = turned(at%direction, pose%direction(:, at%body))
+    else
+      frame%place = at%place - pose%origin
+      if (at%pin > 0) frame%place = pose%pin(:, at%pin) + at%place
+      frame%direction = at%direction
+    end if
+  end function terminal_frame
+
+  !> Velocities of a terminal: with r from the first pin and n the same vector turned by 90°,
+  !! x' = x_first' + h n.
+  pure function terminal_twist(linkage, pose, motion, at) result(twist)
+    type(linkage_t), intent(in) :: linkage !! first pins of its bodies
+    type(pose_t), intent(in) :: pose       !! directions of its bodies
+    type(kinematic_coefficients_t), intent(in) :: motion !! velocities of pins and bodies
+    type(terminal_t), intent(in) :: at
+    type(twist_t) :: twist
+
+    twist = twist_t(0.0_wp, 0.0_wp)
+    if (at%body > 0) then
+      twist%turn = motion%turn(at%body)
+      twist%velocity = motion%pin(:, linkage%bodies(at%body)%first_pin) + &
+        twist%turn*normal_to(turned(at%place, pose%direction(:, at%body)))
+    else if (at%pin > 0) then
+      twist%velocity = motion%pin(:, at%pin)
+    end if
+  end function terminal_twist
+
+  !> Accelerations of a terminal: x'' = x_first'' + h' n − h² r.
+  pure function terminal_acceleration(linkage, pose, motion, at) result(slope)
+    type(linkage_t), intent(in) :: linkage !! first pins of its bodies
+    type(pose_t), intent(in) :: pose       !! directions of its bodies
+    type(kinematic_coefficients_t), intent(in) :: motion !! velocities and accelerations
+    type(terminal_t), intent(in) :: at
+    type(twist_t) :: slope
+
+    real(wp) :: arm(2)
+
+    slope = twist_t(0.0_wp, 0.0_wp)
+    if (at%body > 0) then
+      arm = turned(at%place, pose%direction(:, at%body))
+      slope%turn = motion%turn_slope(at%body)
+      slope%velocity = motion%pin_slope(:, linkage%bodies(at%body)%first_pin) + &
+        slope%turn*normal_to(arm) - motion%turn(at%body)**2*arm
+    else if (at%pin > 0) then
+      slope%velocity = motion%pin_slope(:, at%pin)
+    end if
+  end function terminal_acceleration
+
+end module terminals

@@ -1,0 +1,118 @@
+!> The coordinates of a linkage that have names: of springs and dampers, rams, sliders, measures.
+module named_coordinates
+  use drive_cards, only: drive_ram
+  use measure_cards, only: measure_angle, measure_sum
+  use models, only: model_t
+  use text, only: same_word
+  use tokens, only: token_t
+  implicit none (type, external)
+  private
+
+  public :: named_coordinate_t, find_named_coordinates, coordinate_number
+  public :: of_spring, of_ram, of_slider, of_measure
+
+  !> What a coordinate is of.
+  integer, parameter :: of_spring = 1, of_ram = 2, of_slider = 3, of_measure = 4
+
+  type :: named_coordinate_t
+    character(len=:), allocatable :: name
+    integer :: source = of_spring !! one of the of_… constants
+    integer :: number = 0         !! of the card in the model's list; of a ram, of its DRIVE
+    type(token_t) :: word         !! that gives the name
+    logical :: is_angle = .false. !! else a length
+    logical :: is_sum = .false.
+  end type named_coordinate_t
+
+contains
+
+  !> All of them: springs and dampers, rams, sliders, measures, each kind in the order of the deck.
+  !! A slider has the name of its pin; where a pin has several, with that of the guide or link.
+  pure subroutine find_named_coordinates(model, list)
+    type(model_t), intent(in) :: model !! as read
+    type(named_coordinate_t), allocatable, intent(out) :: list(:)
+
+    integer :: i, filled, kind
+
+    allocate (list(size(model%springs) + count(model%drives%kind == drive_ram) + &
+      size(model%sliders) + size(model%measures)))
+    filled = 0
+    do i = 1, size(model%springs)
+      call append(list, filled, of_spring, i, model%springs(i)%name, model%springs(i)%turns)
+    end do
+    do i = 1, size(model%drives)
+      if (model%drives(i)%kind == drive_ram) call append(list, filled, of_ram, i, &
+        model%drives(i)%subject, .false.)
+    end do
+    do i = 1, size(model%sliders)
+      call append(list, filled, of_slider, i, model%sliders(i)%pin, .false.)
+      if (sliders_at(model, model%sliders(i)%pin) > 1) list(filled)%name = list(filled)%name// &
+        ":"//model%sliders(i)%on%text
+    end do
+    do i = 1, size(model%measures)
+      kind = model%measures(i)%kind
+      call append(list, filled, of_measure, i, model%measures(i)%name, kind == measure_angle)
+      list(filled)%is_sum = kind == measure_sum
+    end do
+    do i = 1, filled
+      if (list(i)%is_sum) list(i)%is_angle = adds_angles(model%measures(list(i)%number)%terms, list)
+    end do
+  end subroutine find_named_coordinates
+
+  pure subroutine append(list, filled, source, number, word, is_angle)
+    type(named_coordinate_t), intent(inout) :: list(:)
+    integer, intent(inout) :: filled !! how many it has so far
+    integer, intent(in) :: source, number
+    type(token_t), intent(in) :: word
+    logical, intent(in) :: is_angle
+
+    filled = filled + 1
+    associate (new => list(filled))
+      new%name = word%text
+      new%source = source
+      new%number = number
+      new%word = word
+      new%is_angle = is_angle
+    end associate
+  end subroutine append
+
+  !> How many sliders have a pin.
+  pure function sliders_at(model, pin) result(number)
+    type(model_t), intent(in) :: model
+    type(token_t), intent(in) :: pin
+    integer :: number
+
+    integer :: i
+
+    number = 0
+    do i = 1, size(model%sliders)
+      if (same_word(model%sliders(i)%pin%text, pin%text)) number = number + 1
+    end do
+  end function sliders_at
+
+  !> Whether the first term of a sum is an angle.
+  pure function adds_angles(terms, list) result(adds)
+    type(token_t), intent(in) :: terms(:)
+    type(named_coordinate_t), intent(in) :: list(:)
+    logical :: adds
+
+    integer :: number
+
+    adds = .false.
+    if (size(terms) == 0) return
+    number = coordinate_number(list, terms(1)%text)
+    if (number > 0) adds = list(number)%is_angle .and. .not. list(number)%is_sum
+  end function adds_angles
+
+  !> The number of a coordinate in a list; 0: none has the name.
+  pure function coordinate_number(list, name) result(number)
+    type(named_coordinate_t), intent(in) :: list(:)
+    character(len=*), intent(in) :: name !! in any case of letters
+    integer :: number
+
+    do number = 1, size(list)
+      if (same_word(list(number)%name, name)) return
+    end do
+    number = 0
+  end function coordinate_number
+
+end module named_coordinates

@@ -1,0 +1,122 @@
+!> Coordinates of a moving linkage: rates, accelerations, what acts along them, ratios.
+module coordinate_study
+  use applied_loads, only: damper_pull, spring_pull
+  use constants, only: degree
+  use coordinate_types, only: coordinate_t, is_angle, is_distance, is_sum
+  use coordinates, only: coordinate_acceleration, coordinate_rate, coordinate_value
+  use group_equations, only: drive_value
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  use pose_types, only: kinematic_coefficients_t, pose_t
+  implicit none (type, external)
+  private
+
+  public :: coordinate_state_t, coordinate_state, coordinate_ratio, is_without_direction
+
+  type :: coordinate_state_t
+    real(wp) :: value = 0.0_wp        !! [m] or [deg]
+    real(wp) :: rate = 0.0_wp         !! [m/s] or [rad/s]
+    real(wp) :: acceleration = 0.0_wp !! [m/s²] or [rad/s²]
+    real(wp) :: effort = 0.0_wp       !! force or couple that makes it grow [N] or [N m]
+    real(wp) :: power = 0.0_wp        !! of the effort on the linkage [W]
+  end type coordinate_state_t
+
+  !> Ends nearer to each other than this share of the longest link are at one place.
+  real(wp), parameter :: least_distance = 1.0e-9_wp
+
+  !> A rate below this share of the largest one of pins and bodies is rounding, and not moving.
+  real(wp), parameter :: least_rate = 1.0e-12_wp
+
+contains
+
+  !> A coordinate at a pose, a speed and an acceleration of the first drive: with the coefficients
+  !! s' and s'' its rate is s' ω, its acceleration s' α + s'' ω².
+  pure function coordinate_state(linkage, pose, coefficients, crank, number, load, force, rates) &
+    result(state)
+    type(linkage_t), intent(in) :: linkage !! its coordinates and loads
+    type(pose_t), intent(in) :: pose       !! positions and directions
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose; or velocities and
+                                           !! accelerations, then with rates 1 and 0
+    real(wp), intent(in) :: crank          !! coordinate of the first drive, with all whole turns:
+                                           !! several have one pose [deg] or [m]
+    integer, intent(in) :: number          !! of the coordinate, from 1
+    integer, intent(in) :: load            !! number of its spring or damper; 0: none
+    real(wp), intent(in) :: force          !! of the drive that gives it; 0: none [N] or [N m]
+    real(wp), intent(in) :: rates(2)       !! speed and acceleration of the first drive [rad/s] and
+                                           !! [rad/s²], or [m/s] and [m/s²]
+    type(coordinate_state_t) :: state
+
+    type(pose_t) :: there
+    real(wp) :: per
+
+    there = pose
+    there%crank = crank
+    associate (coordinate => linkage%coordinates(number), speed => rates(1), &
+        acceleration => rates(2))
+      if (coordinate%drive > 0) then
+        state%value = drive_value(linkage%drives(coordinate%drive), crank)
+      else
+        state%value = coordinate_value(linkage, there, coordinate)
+        if (is_turning(linkage, coordinate)) state%value = state%value/degree
+      end if
+      per = coordinate_rate(linkage, pose, coefficients, coordinate)
+      state%rate = per*speed
+      state%acceleration = per*acceleration + coordinate_acceleration(linkage, pose, &
+        coefficients, coordinate)*speed**2
+    end associate
+    state%effort = force
+    if (load > 0) state%effort = state%effort - spring_pull(linkage, pose, &
+      linkage%loads(load)) - damper_pull(linkage%loads(load), state%rate)
+    state%power = state%effort*state%rate
+  end function coordinate_state
+
+  !> Whether a coordinate is an angle.
+  pure function is_turning(linkage, coordinate) result(is)
+    type(linkage_t), intent(in) :: linkage
+    type(coordinate_t), intent(in) :: coordinate
+    logical :: is
+
+    is = coordinate%kind == is_angle
+    if (coordinate%kind == is_sum) is = linkage%coordinates(coordinate%term(1))%kind == is_angle
+  end function is_turning
+
+  !> Change of one coordinate per change of another: s₁'/s₂'.
+  pure subroutine coordinate_ratio(linkage, pose, coefficients, number, reference, ratio, moves)
+    type(linkage_t), intent(in) :: linkage !! its coordinates
+    type(pose_t), intent(in) :: pose       !! positions and directions
+    type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
+    integer, intent(in) :: number          !! of the coordinate, from 1
+    integer, intent(in) :: reference       !! of the other one
+    real(wp), intent(out) :: ratio         !! [-], [m/rad] or [rad/m]
+    logical, intent(out) :: moves          !! whether the other one does; else there is no ratio
+
+    real(wp) :: rate, largest
+
+    ratio = 0.0_wp
+    rate = coordinate_rate(linkage, pose, coefficients, linkage%coordinates(reference))
+    largest = maxval(abs(coefficients%turn))
+    largest = max(largest, maxval(abs(coefficients%pin))/maxval(linkage%bodies%length))
+    moves = abs(rate) > least_rate*largest
+    if (moves) ratio = coordinate_rate(linkage, pose, coefficients, &
+      linkage%coordinates(number))/rate
+  end subroutine coordinate_ratio
+
+  !> Whether the ends of a distance meet: its line has no direction, and it no rate.
+  pure recursive function is_without_direction(linkage, pose, coordinate) result(is)
+    type(linkage_t), intent(in) :: linkage !! its bodies and coordinates
+    type(pose_t), intent(in) :: pose       !! positions and directions
+    type(coordinate_t), intent(in) :: coordinate
+    logical :: is
+
+    integer :: i
+
+    is = .false.
+    if (coordinate%kind == is_distance) is = coordinate_value(linkage, pose, coordinate) < &
+      least_distance*maxval(linkage%bodies%length)
+    if (coordinate%kind /= is_sum) return
+    do i = 1, size(coordinate%term)
+      is = is .or. is_without_direction(linkage, pose, linkage%coordinates(coordinate%term(i)))
+    end do
+  end function is_without_direction
+
+end module coordinate_study
