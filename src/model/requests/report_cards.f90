@@ -60,7 +60,8 @@ module report_cards
     logical :: with_pins = .false.   !! with a table of the places of the pins
     logical :: with_coordinates = .false. !! with a table of springs, sliders and measures
     logical :: through = .false.     !! straight through change points
-    logical :: with_accelerations = .false., with_forces = .false., with_power = .false. !! columns
+    logical :: with_accelerations = .false., with_forces = .false., with_power = .false., &
+      with_motor = .false.           !! columns
     type(token_t) :: start_angle_word, start_speed_word, end_time_word, time_step_word, &
       through_word, forces_word
     type(transient_card_t) :: transient !! REPORT transient
@@ -392,7 +393,7 @@ contains
     type(report_t), intent(inout) :: report
 
     type(token_t), allocatable :: words(:)
-    integer :: first(3), choice, i !! `first`: number of each word in the list, 0: absent
+    integer :: first(4), choice, i !! `first`: number of each word in the list, 0: absent
     logical :: fine
 
     if (.not. has_value(card, "columns")) return
@@ -400,7 +401,7 @@ contains
     if (.not. fine) return
     first = 0
     do i = 1, size(words)
-      call read_choice(words(i), "accelerations forces power", diagnostics, choice)
+      call read_choice(words(i), "accelerations forces power motor", diagnostics, choice)
       if (choice == 0) cycle
       if (first(choice) > 0) then
         call add_error(diagnostics, words(i), "'"//lower_case(words(i)%text)// &
@@ -413,6 +414,7 @@ contains
     report%with_accelerations = first(1) > 0
     report%with_forces = first(2) > 0
     report%with_power = first(3) > 0
+    report%with_motor = first(4) > 0
   end subroutine read_columns
 
 end module report_cards

@@ -13,13 +13,13 @@ module four_bar_motion_format
   implicit none (type, external)
   private
 
-  public :: four_bar_columns, motion_words, motion_columns, power_columns, crank_note, &
-    forces_note, four_bar_cells, four_bar_event
+  public :: four_bar_columns, motion_words, motion_columns, motor_columns, motor_values, &
+    crank_note, forces_note, four_bar_cells, four_bar_event
 
   !> What `columns=` adds. Forces are those of `reactions.dat`.
   character(len=*), parameter :: acceleration_columns = " alpha2,alpha3,alpha4:rad/s2", &
-    power_columns = " motor_power,gear_loss,load_power:power", force_columns = &
-    " O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force"
+    power_columns = " motor_torque:moment motor_speed:rate motor_power,gear_loss,"// &
+    "load_power:power", force_columns = " O2x,O2y,A2x,A2y,A3x,A3y,B3x,B3y,B4x,B4y,O4x,O4y:force"
 
   !> All columns, which a table has if its card asks for them.
   character(len=*), parameter :: always_columns = "time:time crank,theta3,theta4:deg "// &
@@ -42,9 +42,45 @@ contains
 
     columns = always_columns
     if (asked%with_accelerations) columns = columns//acceleration_columns
-    if (asked%with_power) columns = columns//power_columns
+    columns = columns//motor_columns(asked, .false.)
     if (asked%with_forces) columns = columns//force_columns
   end function four_bar_columns
+
+  !> The columns of the motor and its gear.
+  pure function motor_columns(asked, along) result(columns)
+    type(report_t), intent(in) :: asked !! REPORT motion
+    logical, intent(in) :: along        !! the motor acts on a slider or a ram
+    character(len=:), allocatable :: columns
+
+    columns = ""
+    if (asked%with_motor .and. along) then
+      columns = " motor_torque:force motor_speed:velocity"
+    else if (asked%with_motor) then
+      columns = " motor_torque:moment motor_speed:rate"
+    end if
+    if (asked%with_power) then
+      columns = columns//" motor_power,gear_loss,load_power:power"
+    else if (asked%with_motor) then
+      columns = columns//" motor_power:power"
+    end if
+  end function motor_columns
+
+  !> Their values at an instant.
+  pure function motor_values(asked, motion, instant) result(values)
+    type(report_t), intent(in) :: asked         !! REPORT motion
+    type(motion_result_t), intent(in) :: motion !! with details, if columns of the motor are asked
+                                                !! for
+    integer, intent(in) :: instant              !! number
+    real(wp), allocatable :: values(:)
+
+    allocate (values(0))
+    if (asked%with_motor) values = motion%motor(:, instant)
+    if (asked%with_power) then
+      values = [values, motion%power(:, instant)]
+    else if (asked%with_motor) then
+      values = [values, motion%power(1, instant)]
+    end if
+  end function motor_values
 
   !> Which link is the crank, and where angles are measured.
   pure function crank_note(variant) result(note)

@@ -3,7 +3,7 @@
 module motion_report
   use drive_cards, only: moves_along
   use four_bar_motion_format, only: crank_note, forces_note, four_bar_cells, four_bar_columns, &
-    four_bar_event, motion_columns, motion_words, power_columns
+    four_bar_event, motion_columns, motion_words, motor_columns, motor_values
   use kinds, only: long, wp
   use load_notes, only: potential_note, work_note
   use models, only: drives_length, is_of_four_bar, model_t, report_number
@@ -29,6 +29,8 @@ module motion_report
 
   public :: describe_motion, describe_linkage_motion, motion_log
 
+  character(len=*), parameter :: motor_note = "motor_torque, motor_speed, motor_power: of the "// &
+    "motor at its own shaft, before its gear"
   character(len=*), parameter :: power_note = "motor_power: of the motor at its shaft; "// &
     "gear_loss: in its gear; load_power: of all loads without a potential; motor_power - "// &
     "gear_loss + load_power is the rate of kinetic + potential"
@@ -37,8 +39,8 @@ module motion_report
   integer, parameter :: most_listed = 200
 
   character(len=*), parameter :: line_feed = achar(10), default = "speed=0 pins=no", &
-    pattern = "REPORT motion crank= [speed=0] end= step= [columns=accelerations,forces,power] "// &
-    "[pins=no|yes] [coordinates=no|yes] [change_points=stop|through] [format=]"
+    pattern = "REPORT motion crank= [speed=0] end= step= [columns=accelerations,forces,"// &
+    "power,motor] [pins=no|yes] [coordinates=no|yes] [change_points=stop|through] [format=]"
 
   !> `motion.dat`.
   type, extends(whole_table_t) :: motion_table_t
@@ -72,7 +74,8 @@ contains
       linkages=other_linkages)
     call add_table(report, motion_table_t(), "motion", "time:time position*:deg "// &
       "rate*:rate torque:moment kinetic,potential,work,energy_error:energy "// &
-      "acceleration*:rad/s2 motor_power,gear_loss,load_power:power")
+      "acceleration*:rad/s2 motor_torque:moment motor_speed:rate motor_power,gear_loss,"// &
+      "load_power:power")
     call add_table(report, motion_pins_table_t(), "motion_pins", "time:time pin:name x,y:length")
     call add_table(report, motion_coordinates_table_t(), "motion_coordinates", "time:time "// &
       "coordinate:name value,rate,acceleration,effort:see_head power:power")
@@ -99,6 +102,7 @@ contains
         call append_string(notes, work_note)
       end if
       call append_gear_notes(variant%model%motor, notes)
+      if (asked%with_motor) call append_string(notes, motor_note)
       if (asked%with_power) call append_string(notes, power_note)
       if (four_bar .and. asked%with_forces) call append_string(notes, forces_note)
       if (motion%count > 0) call append_string(notes, "initial energy: "// &
@@ -230,7 +234,7 @@ contains
           columns = columns//" acceleration*:rad/s2"
         end if
       end if
-      if (asked%with_power) columns = columns//power_columns
+      columns = columns//motor_columns(asked, moves_along(model%drives(1)%kind))
     end associate
   end function motion_columns_of
 
@@ -272,7 +276,7 @@ contains
     if (allocated(motion%is_determined)) has = motion%is_determined(instant)
     ! Forces of linkages that are no four-bars have a table of their own.
     if (asked%kind%linkages /= four_bars) has = has .or. .not. (asked%with_accelerations .or. &
-      asked%with_power)
+      asked%with_power .or. asked%with_motor)
   end function has_details
 
   !> What `columns=` adds to the row of an instant of a four-bar: accelerations, powers, forces.
@@ -285,7 +289,7 @@ contains
     allocate (values(0))
     associate (motion => variant%found%motion)
       if (asked%with_accelerations) values = [values, motion%acceleration(:, instant)]
-      if (asked%with_power) values = [values, motion%power(:, instant)]
+      values = [values, motor_values(asked, motion, instant)]
       if (asked%with_forces) values = [values, pin_forces_of(variant%mechanism%four_bar, &
         motion%joints, motion%force(:, :, instant))]
     end associate
@@ -329,7 +333,7 @@ contains
           torque = from_si(torque, table_factor("moment", model%outputs))
         end if
       end if
-      if (asked%with_power) extra = [extra, motion%power(:, instant)]
+      extra = [extra, motor_values(asked, motion, instant)]
       row = cells(layout, 2, [position, rate, torque, sample%kinetic, sample%potential, &
         sample%work, sample%energy_error, extra])
     end associate

@@ -89,7 +89,7 @@ contains
       end if
       request%with_forces = request%with_forces .or. asked%with_forces
       request%with_details = asked%with_accelerations .or. request%with_forces .or. &
-        asked%with_power .or. asked%with_coordinates
+        asked%with_power .or. asked%with_motor .or. asked%with_coordinates
     end associate
     request%is_free = model%drives%is_free
     request%drive = drive_of(model)
@@ -204,7 +204,7 @@ contains
       if (asked%with_coordinates) columns = numbers_of_coordinate*(size(model%springs) + &
         size(model%drives) + size(model%sliders) + size(model%measures))
       if (asked%with_accelerations) columns = columns + max(3, size(model%drives))
-      if (asked%with_power) columns = columns + 3
+      if (asked%with_power .or. asked%with_motor) columns = columns + 5
       if (asked%with_forces) columns = columns + of_joint*(sum([(size(model%links(i)%pins), &
         i=1, size(model%links))]) + size(model%sliders))
     end associate

@@ -64,6 +64,8 @@ module motion_study
     real(wp), allocatable :: acceleration(:, :)        !! (free drives, instants) [rad/s²] or
                                                        !! [m/s²]; of a linkage of one loop (3,
                                                        !! instants) crank, coupler, follower
+    real(wp), allocatable :: motor(:, :)               !! (2, instants) torque at its own shaft, and
+                                                       !! speed [N m, rad/s] or [N, m/s]
     real(wp), allocatable :: power(:, :)               !! (3, instants) of the motor, lost in its
                                                        !! gear, of loads without a potential [W]
     type(joint_t), allocatable :: joints(:)            !! as in `joint_study`, where forces are
@@ -109,7 +111,8 @@ contains
     allocate (result%samples(size(request%instants)), result%passages(0))
     if (request%with_details) allocate (result%is_determined(size(request%instants)), &
       result%acceleration(merge(3, size(free_drives(request%is_free)), has_loop(linkage)), &
-      size(request%instants)), result%power(3, size(request%instants)))
+      size(request%instants)), result%power(3, size(request%instants)), &
+      result%motor(2, size(request%instants)))
     if (allocated(request%load)) allocate (result%coordinates(size(request%load), &
       size(request%instants)))
     if (request%with_forces) then
@@ -185,6 +188,8 @@ contains
       result%is_open(:, number) = open_joints(under_way%linkage, result%joints, states)
     end if
     result%acceleration(:, number) = details%acceleration
+    result%motor(:, number) = [details%driven%motor, under_way%request%gear%ratio* &
+      result%last%rate(1)]
     result%power(:, number) = [details%driven%power, details%driven%loss, details%load_power]
     if (under_way%request%with_forces) result%force(:, :, number) = joint_values( &
       under_way%linkage, result%joints, details%joints, details%direction, details%turning)
