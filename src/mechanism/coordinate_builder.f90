@@ -1,9 +1,10 @@
 !> Model → the coordinates of the linkage that have names.
 module coordinate_builder
-  use applied_load_types, only: applied_load_t, applies_along, load_place_t
+  use applied_load_types, only: applied_load_t, applies_along
   use coordinate_types, only: coordinate_t, is_across, is_along, is_angle, is_sum, terminal_t
+  use coordinates, only: slider_coordinate
   use group_equations, only: direction_at
-  use linkages, only: drive_of_angle, linkage_t, slider_t
+  use linkages, only: drive_of_angle, linkage_t
   use measure_cards, only: measure_across, measure_angle, measure_card_t, measure_distance, &
     measure_sum, measure_travel
   use models, only: model_t
@@ -57,10 +58,8 @@ contains
           end associate
         case (of_slider)
           listed(i)%drive = findloc(linkage%drives%slider, number, dim=1)
+          it = slider_coordinate(linkage, number)
           it%drive = held_by(linkage, listed(i)%drive)
-          it%kind = is_along
-          it%at(1) = line_of(linkage%sliders(number))
-          it%at(2)%pin = linkage%sliders(number)%pin
         case (of_measure)
           call take_measure(model, links, pins, named, model%measures(number), linkage, it)
         end select
@@ -90,10 +89,10 @@ contains
   !> A terminal at a place of a spring, which counts fixed places from a ground pivot.
   pure function terminal_of(linkage, place) result(at)
     type(linkage_t), intent(in) :: linkage
-    type(load_place_t), intent(in) :: place
+    type(terminal_t), intent(in) :: place
     type(terminal_t) :: at
 
-    at = terminal_t(pin=place%pin, body=place%body, place=place%place)
+    at = place
     if (place%pin == 0) return
     if (.not. linkage%is_ground(place%pin)) return
     at%pin = 0
@@ -109,14 +108,6 @@ contains
     at%body = body
     if (body > 0) at%direction = linkage%bodies(body)%heading
   end function heading_of
-
-  !> The line of a slider.
-  pure function line_of(slider) result(at)
-    type(slider_t), intent(in) :: slider
-    type(terminal_t) :: at
-
-    at = terminal_t(body=slider%body, place=slider%point, direction=slider%direction)
-  end function line_of
 
   !> A drive that gives a value at every position; 0 of one that is free there.
   pure function held_by(linkage, drive) result(number)

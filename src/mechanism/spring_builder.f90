@@ -1,7 +1,8 @@
 !> Model → springs and dampers of the linkage.
 module spring_builder
-  use applied_load_types, only: applied_load_t, applies_along, applies_between, load_place_t
+  use applied_load_types, only: applied_load_t, applies_along, applies_between
   use constants, only: degree
+  use coordinate_types, only: terminal_t
   use kinds, only: wp
   use link_shapes, only: find_drawn_place
   use linkages, only: body_t, linkage_t, turned
@@ -95,7 +96,7 @@ contains
     type(name_index_t), intent(in) :: pins    !! names of the pins
     type(linkage_t), intent(in) :: linkage    !! its bodies
     character(len=*), intent(in) :: name      !! in any case of letters
-    type(load_place_t) :: at
+    type(terminal_t) :: at
 
     integer :: i
 

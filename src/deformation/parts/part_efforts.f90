@@ -1,10 +1,10 @@
 !> Loads of parts beside those that a pose determines: dampers, resistances and loads in one
 !! direction of the motion, friction in a joint, the torque of a motor. All are in the first case.
 module part_efforts
-  use applied_load_types, only: applies_along, applies_couple, applies_force, &
-    load_place_t
+  use applied_load_types, only: applies_along, applies_couple, applies_force
   use applied_loads, only: damper_pulls, is_moving, moving_couple, moving_force
   use carried_bodies, only: carried_force
+  use coordinate_types, only: terminal_t
   use elastic_linkages, only: add_couple, elastic_linkage_t, spring_pin
   use group_equations, only: line_axis
   use kinds, only: wp
@@ -154,7 +154,7 @@ contains
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: placed
     integer, intent(in) :: number !! of the load
-    type(load_place_t), intent(in) :: at
+    type(terminal_t), intent(in) :: at
     real(wp), intent(in) :: force(2)
     type(part_loads_t), intent(inout) :: loads
 

@@ -5,7 +5,7 @@
 module coordinates
   use constants, only: degree
   use coordinate_types, only: coordinate_t, frame_t, is_across, is_along, is_angle, is_distance, &
-    is_sum, twist_t
+    is_sum, terminal_t, twist_t
   use distances, only: distance_acceleration, distance_rate, distance_value
   use group_equations, only: drive_value
   use kinds, only: wp
@@ -16,7 +16,7 @@ module coordinates
   implicit none (type, external)
   private
 
-  public :: coordinate_value, coordinate_rate, coordinate_acceleration
+  public :: coordinate_value, coordinate_rate, coordinate_acceleration, slider_coordinate
 
 contains
 
@@ -81,6 +81,20 @@ contains
         motion, linkage%coordinates(coordinate%term(i)))
     end do
   end function coordinate_acceleration
+
+  !> The place of the pin of a slider along its line.
+  pure function slider_coordinate(linkage, number) result(coordinate)
+    type(linkage_t), intent(in) :: linkage !! its sliders
+    integer, intent(in) :: number          !! of the slider, from 1
+    type(coordinate_t) :: coordinate
+
+    coordinate%kind = is_along
+    associate (slider => linkage%sliders(number))
+      coordinate%at(1) = terminal_t(body=slider%body, place=slider%point, &
+        direction=slider%direction)
+      coordinate%at(2)%pin = slider%pin
+    end associate
+  end function slider_coordinate
 
   !> The value of one that is no sum.
   pure function simple_value(linkage, pose, coordinate) result(value)

@@ -7,7 +7,7 @@ module terminals
   implicit none (type, external)
   private
 
-  public :: terminal_frame, terminal_twist, terminal_acceleration
+  public :: terminal_place, terminal_velocity, terminal_frame, terminal_twist, terminal_acceleration
 
 contains
 
@@ -18,19 +18,47 @@ contains
     type(terminal_t), intent(in) :: at
     type(frame_t) :: frame
 
-    if (at%body > 0) then
-      frame%place = pose%pin(:, linkage%bodies(at%body)%first_pin) + turned(at%place, &
-        pose%direction(:, at%body))
-      frame%direction = turned(at%direction, pose%direction(:, at%body))
-    else
-      frame%place = at%place - pose%origin
-      if (at%pin > 0) frame%place = pose%pin(:, at%pin) + at%place
-      frame%direction = at%direction
-    end if
+    frame%place = terminal_place(linkage, pose, at)
+    frame%direction = at%direction
+    if (at%body > 0) frame%direction = turned(at%direction, pose%direction(:, at%body))
   end function terminal_frame
 
-  !> Velocities of a terminal: with r from the first pin and n the same vector turned by 90°,
+  !> Where a terminal is, counted as the pins of the pose [m].
+  pure function terminal_place(linkage, pose, at) result(place)
+    type(linkage_t), intent(in) :: linkage !! first pins of its bodies
+    type(pose_t), intent(in) :: pose       !! positions and directions
+    type(terminal_t), intent(in) :: at
+    real(wp) :: place(2)
+
+    if (at%body > 0) then
+      place = pose%pin(:, linkage%bodies(at%body)%first_pin) + turned(at%place, &
+        pose%direction(:, at%body))
+    else if (at%pin > 0) then
+      place = pose%pin(:, at%pin) + at%place
+    else
+      place = at%place - pose%origin
+    end if
+  end function terminal_place
+
+  !> How fast its place moves: with r from the first pin and n the same vector turned by 90°,
   !! x' = x_first' + h n.
+  pure function terminal_velocity(linkage, pose, motion, at) result(velocity)
+    type(linkage_t), intent(in) :: linkage !! first pins of its bodies
+    type(pose_t), intent(in) :: pose       !! directions of its bodies
+    type(kinematic_coefficients_t), intent(in) :: motion !! velocities of pins and bodies
+    type(terminal_t), intent(in) :: at
+    real(wp) :: velocity(2)
+
+    velocity = 0.0_wp
+    if (at%body > 0) then
+      velocity = motion%pin(:, linkage%bodies(at%body)%first_pin) + motion%turn(at%body)* &
+        normal_to(turned(at%place, pose%direction(:, at%body)))
+    else if (at%pin > 0) then
+      velocity = motion%pin(:, at%pin)
+    end if
+  end function terminal_velocity
+
+  !> Velocities of a terminal.
   pure function terminal_twist(linkage, pose, motion, at) result(twist)
     type(linkage_t), intent(in) :: linkage !! first pins of its bodies
     type(pose_t), intent(in) :: pose       !! directions of its bodies
@@ -38,14 +66,9 @@ contains
     type(terminal_t), intent(in) :: at
     type(twist_t) :: twist
 
-    twist = twist_t(0.0_wp, 0.0_wp)
-    if (at%body > 0) then
-      twist%turn = motion%turn(at%body)
-      twist%velocity = motion%pin(:, linkage%bodies(at%body)%first_pin) + &
-        twist%turn*normal_to(turned(at%place, pose%direction(:, at%body)))
-    else if (at%pin > 0) then
-      twist%velocity = motion%pin(:, at%pin)
-    end if
+    twist%velocity = terminal_velocity(linkage, pose, motion, at)
+    twist%turn = 0.0_wp
+    if (at%body > 0) twist%turn = motion%turn(at%body)
   end function terminal_twist
 
   !> Accelerations of a terminal: x'' = x_first'' + h' n − h² r.

@@ -1,8 +1,9 @@
 !> How fast joints of a linkage turn or slide.
 module joint_rates
+  use coordinates, only: coordinate_rate, slider_coordinate
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: linkage_t, normal_to, turned
+  use linkages, only: linkage_t
   use pose_types, only: pins_of_body, pose_t
   implicit none (type, external)
   private
@@ -27,7 +28,7 @@ contains
     integer :: i
 
     if (slider > 0) then
-      rate = slider_rate(linkage, pose, coefficients, slider)
+      rate = coordinate_rate(linkage, pose, coefficients, slider_coordinate(linkage, slider))
       return
     end if
     rate = coefficients%turn(body)
@@ -43,27 +44,5 @@ contains
       return
     end do
   end function joint_rate
-
-  !> Rate of the pin of a slider along its line.
-  pure function slider_rate(linkage, pose, coefficients, number) result(rate)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: coefficients
-    integer, intent(in) :: number !! of the slider
-    real(wp) :: rate
-
-    integer :: first
-
-    associate (slider => linkage%sliders(number))
-      if (slider%body == 0) then
-        rate = dot_product(slider%direction, coefficients%pin(:, slider%pin))
-        return
-      end if
-      first = linkage%bodies(slider%body)%first_pin
-      rate = dot_product(turned(slider%direction, pose%direction(:, slider%body)), &
-        coefficients%pin(:, slider%pin) - coefficients%pin(:, first) - &
-        coefficients%turn(slider%body)*normal_to(pose%pin(:, slider%pin) - pose%pin(:, first)))
-    end associate
-  end function slider_rate
 
 end module joint_rates

@@ -1,13 +1,14 @@
 !> Blocks that slide along links: whether they are still between the ends of their links.
 module block_ends
+  use coordinates, only: coordinate_value, slider_coordinate
   use errors, only: error_of_reach, error_t, set_error
   use kinds, only: wp
-  use linkages, only: linkage_t, turned_back
+  use linkages, only: linkage_t
   use pose_types, only: pose_t
   implicit none (type, external)
   private
 
-  public :: refuse_leaving_block, leaving_block, block_place
+  public :: refuse_leaving_block, leaving_block
 
   !> Rounding of a place, as a share of the way between the ends.
   real(wp), parameter :: slack = 1.0e-9_wp
@@ -39,25 +40,12 @@ contains
     do number = 1, size(linkage%sliders)
       associate (slider => linkage%sliders(number))
         if (slider%body == 0 .or. .not. slider%has_ends) cycle
-        place = block_place(linkage, pose, number)
+        place = coordinate_value(linkage, pose, slider_coordinate(linkage, number))
         rounding = slack*(slider%ends(2) - slider%ends(1))
         if (place < slider%ends(1) - rounding .or. place > slider%ends(2) + rounding) return
       end associate
     end do
     number = 0
   end function leaving_block
-
-  !> Where the block of a slider is on the line of its link, from the point of the line [m].
-  pure function block_place(linkage, pose, number) result(place)
-    type(linkage_t), intent(in) :: linkage !! its sliders
-    type(pose_t), intent(in) :: pose       !! of all pins and bodies
-    integer, intent(in) :: number          !! of a slider along a link
-    real(wp) :: place
-
-    associate (slider => linkage%sliders(number))
-      place = dot_product(slider%direction, turned_back(pose%pin(:, slider%pin) - pose%pin(:, &
-        linkage%bodies(slider%body)%first_pin), pose%direction(:, slider%body)) - slider%point)
-    end associate
-  end function block_place
 
 end module block_ends

@@ -2,12 +2,13 @@
 module crank_extremes
   use bridges, only: node_weights
   use constants, only: degree
+  use coordinates, only: coordinate_rate, coordinate_value, slider_coordinate
   use crank_limits, only: crank_range_t
   use errors, only: error_t
-  use group_equations, only: line_axis, line_offset, world_line
+  use group_equations, only: line_axis, line_offset
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
-  use linkages, only: cross, linkage_t, normal_to
+  use linkages, only: cross, linkage_t
   use pose_types, only: pose_t
   use poses, only: body_angle, dead_point_sine, place_links, transmission_angle
   implicit none (type, external)
@@ -289,36 +290,13 @@ contains
       value = body_angle(linkage, pose, quantity%number)/degree
       rate = coefficients%turn(quantity%number)
     case (place_of_slider)
-      call evaluate_place(linkage, quantity%number, pose, coefficients, value, rate)
+      value = coordinate_value(linkage, pose, slider_coordinate(linkage, quantity%number))
+      rate = coordinate_rate(linkage, pose, coefficients, slider_coordinate(linkage, &
+        quantity%number))
     case default
       call evaluate_group(linkage, quantity, pose, coefficients, value, rate)
     end select
   end subroutine measure
-
-  !> The place of a slider along its line, which may turn, and its rate:
-  !! `e·(p − q)` and `h n·(p − q) + e·(p' − q')`, n the normal of e.
-  pure subroutine evaluate_place(linkage, number, pose, coefficients, value, rate)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: number !! of the slider
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: coefficients
-    real(wp), intent(out) :: value, rate
-
-    real(wp) :: axis(2), point(2), way(2), velocity(2)
-
-    associate (slider => linkage%sliders(number))
-      call world_line(linkage, pose, number, axis, point)
-      way = pose%pin(:, slider%pin) - point
-      value = dot_product(axis, way)
-      rate = dot_product(axis, coefficients%pin(:, slider%pin))
-      if (slider%body == 0) return
-      associate (first => linkage%bodies(slider%body)%first_pin, &
-          h => coefficients%turn(slider%body))
-        velocity = coefficients%pin(:, first) + h*normal_to(point - pose%pin(:, first))
-        rate = rate - dot_product(axis, velocity) + h*dot_product(normal_to(axis), way)
-      end associate
-    end associate
-  end subroutine evaluate_place
 
   !> The transmission or pressure angle of a group, and its rate up to a positive factor.
   pure subroutine evaluate_group(linkage, quantity, pose, coefficients, value, rate)

@@ -9,12 +9,13 @@
 !> Loads on a linkage beside its weights and the constant forces and torques: what springs, dampers
 !! and processes put on it.
 module applied_load_types
+  use coordinate_types, only: terminal_t
   use cubic_splines, only: cubic_spline_t
   use kinds, only: wp
   implicit none (type, external)
   private
 
-  public :: applied_load_t, load_place_t
+  public :: applied_load_t
   public :: applies_force, applies_couple, applies_along, applies_between
   public :: acts_always, acts_with_motion, acts_against_motion
   public :: over_nothing, over_drive, over_slider, over_travel, over_angle
@@ -32,21 +33,14 @@ module applied_load_types
   integer, parameter :: over_nothing = 0, over_drive = 1, over_slider = 2, over_travel = 3, &
     over_angle = 4
 
-  !> Where a force acts.
-  type :: load_place_t
-    integer :: pin = 0             !! number; 0: a place of a body
-    integer :: body = 0            !! number; not of a pin
-    real(wp) :: place(2) = 0.0_wp  !! from the first pin of the body, in its axes; of a fixed place
-                                   !! from a ground pivot, in global axes [m]
-  end type load_place_t
-
   !> A load. With the coordinate x of its kind, a length or an angle, and its rate v: `tension +
   !! stiffness (x − rest)` shortens a line or turns bodies back, and so does `damping v +
   !! resisting tanh(v/smooth)`; a force or couple is `value`, times that of a table, less the same
   !! resistance to the motion of its place or body.
   type :: applied_load_t
     integer :: kind = applies_force       !! one of the applies_… constants
-    type(load_place_t) :: at(2)           !! of a force the first; of a line both ends; of two
+    type(terminal_t) :: at(2)             !! of a force the first; of a line both ends, fixed ones
+                                          !! counted from a ground pivot; of two
                                           !! bodies the first: the pin where they turn
     integer :: body(2) = 0                !! on which a couple acts, the first; of two bodies the
                                           !! second turns against the first; 0: the ground

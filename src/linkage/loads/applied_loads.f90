@@ -2,15 +2,17 @@
 !! energy; without one, but determined by the pose; and what depends on how fast the linkage moves.
 module applied_loads
   use applied_load_types, only: acts_always, applied_load_t, applies_along, applies_between, &
-    applies_couple, applies_force, load_place_t, over_nothing
+    applies_couple, applies_force, over_nothing
+  use coordinate_types, only: terminal_t
   use inertia_loads, only: load_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: cross, forced_place_t, linkage_t, turned
-  use load_coordinates, only: load_axis, load_deflection, load_rate, place_in, velocity_at
+  use load_coordinates, only: load_axis, load_deflection, load_rate
   use load_tables, only: table_factor
   use pose_types, only: pose_t
   use poses, only: arm_to_place
+  use terminals, only: terminal_place, terminal_velocity
   implicit none (type, external)
   private
 
@@ -231,7 +233,7 @@ contains
 
     real(wp) :: velocity(2), speed
 
-    velocity = velocity_at(linkage, pose, now, load%at(1))
+    velocity = terminal_velocity(linkage, pose, now, load%at(1))
     speed = norm2(velocity)
     force = -load%damping*velocity
     if (speed > 0.0_wp) force = force - resistance(load, speed)/speed*velocity
@@ -332,7 +334,7 @@ contains
       associate (load => linkage%loads(i))
         if (.not. is_conservative(load)) cycle
         if (load%kind == applies_force) then
-          energy = energy - dot_product(load%force, place_in(linkage, pose, load%at(1)) + &
+          energy = energy - dot_product(load%force, terminal_place(linkage, pose, load%at(1)) + &
             pose%origin)
         else
           stretch = load_deflection(linkage, pose, load)
@@ -360,8 +362,8 @@ contains
         pull = abs(load%tension) + load%stiffness*(abs(load_deflection(linkage, pose, load)) + &
           abs(load%rest))
         if (load%kind == applies_along) then
-          scale = scale + pull*(norm2(velocity_at(linkage, pose, per, load%at(1))) + &
-            norm2(velocity_at(linkage, pose, per, load%at(2))))
+          scale = scale + pull*(norm2(terminal_velocity(linkage, pose, per, load%at(1))) + &
+            norm2(terminal_velocity(linkage, pose, per, load%at(2))))
         else
           scale = scale + pull*abs(per%turn(load%body(2)))
           if (load%body(1) > 0) scale = scale + pull*abs(per%turn(load%body(1)))
@@ -425,7 +427,7 @@ contains
         value = [load%couple, 0.0_wp]
         select case (load%kind)
         case (applies_force)
-          velocity = velocity_at(linkage, pose, now, load%at(1))
+          velocity = terminal_velocity(linkage, pose, now, load%at(1))
           value = force_of(pose, load)
         case (applies_couple)
           velocity = [now%turn(load%body(1)), 0.0_wp]
@@ -492,7 +494,7 @@ contains
   !> Adds a force at a place.
   pure subroutine add_force(pose, at, force, body_load, pin_load)
     type(pose_t), intent(in) :: pose
-    type(load_place_t), intent(in) :: at
+    type(terminal_t), intent(in) :: at
     real(wp), intent(in) :: force(2) !! [N]
     type(load_t), intent(inout) :: body_load(:)
     real(wp), intent(inout) :: pin_load(:, :)

@@ -3,8 +3,9 @@ module ground_loads
   use applied_load_types, only: applies_along, applies_between
   use kinds, only: wp
   use linkages, only: cross, linkage_t, reference_point
-  use load_coordinates, only: load_axis, place_in
+  use load_coordinates, only: load_axis
   use pose_types, only: pose_t
+  use terminals, only: terminal_place
   implicit none (type, external)
   private
 
@@ -33,7 +34,7 @@ contains
           if (load%at(k)%pin == 0) cycle
           if (.not. linkage%is_ground(load%at(k)%pin)) cycle
           force = merge(pull(i), -pull(i), k == 1)*load_axis(linkage, pose, load)
-          total = total + [force, cross(place_in(linkage, pose, load%at(k)) - &
+          total = total + [force, cross(terminal_place(linkage, pose, load%at(k)) - &
             reference_point(linkage), force)]
         end do
       end associate

@@ -1,6 +1,7 @@
 !> Friction in pins and sliders: the forces in the joints that it depends on, and that it changes.
 module joint_friction
   use applied_loads, only: generalised_force
+  use coordinates, only: coordinate_rate, slider_coordinate
   use dense_factor, only: dense_factor_t, factorize, solve
   use group_equations, only: line_axis
   use inertia_loads, only: load_t
@@ -213,24 +214,12 @@ contains
     type(joint_friction_t), intent(in) :: rub
     real(wp) :: rate
 
-    real(wp) :: axis(2), arm(2)
-    integer :: first
-
-    if (rub%slider == 0) then
-      rate = coefficients%turn(rub%body)
-      if (rub%against > 0) rate = rate - coefficients%turn(rub%against)
+    if (rub%slider > 0) then
+      rate = coordinate_rate(linkage, pose, coefficients, slider_coordinate(linkage, rub%slider))
       return
     end if
-    axis = line_axis(linkage, pose, rub%slider)
-    rate = dot_product(axis, coefficients%pin(:, rub%pin))
-    associate (carrier => linkage%sliders(rub%slider)%body)
-      if (carrier == 0) return
-      first = linkage%bodies(carrier)%first_pin
-      arm = pose%pin(:, rub%pin) - pose%pin(:, first)
-      ! The point of the carrier where the pin is now moves by x' + h n.
-      rate = rate - dot_product(axis, coefficients%pin(:, first)) - &
-        coefficients%turn(carrier)*cross(arm, axis)
-    end associate
+    rate = coefficients%turn(rub%body)
+    if (rub%against > 0) rate = rate - coefficients%turn(rub%against)
   end function rate_of
 
   !> Puts couples of pins and forces of sliders on the linkage.

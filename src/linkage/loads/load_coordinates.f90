@@ -1,52 +1,22 @@
-!> Where loads act and how they lie at a pose: the line between their places, its length or the
-!! angle between two bodies, and the rates of these.
+!> How loads lie at a pose: the line between their places, its length or the angle between two
+!! bodies, and the rates of these.
 module load_coordinates
-  use applied_load_types, only: applied_load_t, applies_along, load_place_t
-  use body_points, only: find_point_coefficients, point_coefficients_t
+  use applied_load_types, only: applied_load_t, applies_along
   use constants, only: degree
+  use coordinate_types, only: frame_t
+  use distances, only: distance_axis, distance_rate, distance_value
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
   use pose_types, only: pose_t
-  use poses, only: arm_to_place, body_angle
+  use poses, only: body_angle
+  use terminals, only: terminal_frame, terminal_twist
   implicit none (type, external)
   private
 
-  public :: place_in, velocity_at, load_axis, load_deflection, load_rate, counts_turns
+  public :: load_axis, load_deflection, load_rate, counts_turns
 
 contains
-
-  !> Where a load acts [m].
-  pure function place_in(linkage, pose, at) result(place)
-    type(linkage_t), intent(in) :: linkage !! first pins of its bodies
-    type(pose_t), intent(in) :: pose       !! positions and directions
-    type(load_place_t), intent(in) :: at   !! a pin, or a place of a body
-    real(wp) :: place(2)
-
-    if (at%pin > 0) then
-      place = pose%pin(:, at%pin) + at%place
-    else
-      place = pose%pin(:, linkage%bodies(at%body)%first_pin) + arm_to_place(pose, at%body, at%place)
-    end if
-  end function place_in
-
-  !> How fast that place moves [m/s].
-  pure function velocity_at(linkage, pose, now, at) result(velocity)
-    type(linkage_t), intent(in) :: linkage !! first pins of its bodies
-    type(pose_t), intent(in) :: pose       !! directions of the bodies
-    type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
-    type(load_place_t), intent(in) :: at   !! a pin, or a place of a body
-    real(wp) :: velocity(2)
-
-    type(point_coefficients_t) :: point
-
-    if (at%pin > 0) then
-      velocity = now%pin(:, at%pin)
-    else
-      point = find_point_coefficients(linkage, pose, now, at%body, at%place)
-      velocity = point%rate
-    end if
-  end function velocity_at
 
   !> By how much a spring is stretched [m], or turned: from −π to π, but on a crank with all whole
   !! turns [rad].
@@ -59,8 +29,7 @@ contains
     real(wp) :: angle
 
     if (load%kind == applies_along) then
-      stretch = norm2(place_in(linkage, pose, load%at(2)) - place_in(linkage, pose, load%at(1))) - &
-        load%rest
+      stretch = distance_value(ends_of(linkage, pose, load)) - load%rest
     else if (counts_turns(linkage, load)) then
       stretch = pose%crank*degree - load%rest
     else
@@ -88,8 +57,8 @@ contains
     real(wp) :: rate
 
     if (load%kind == applies_along) then
-      rate = dot_product(load_axis(linkage, pose, load), velocity_at(linkage, pose, now, &
-        load%at(2)) - velocity_at(linkage, pose, now, load%at(1)))
+      rate = distance_rate(ends_of(linkage, pose, load), [terminal_twist(linkage, pose, now, &
+        load%at(1)), terminal_twist(linkage, pose, now, load%at(2))])
     else
       rate = now%turn(load%body(2))
       if (load%body(1) > 0) rate = rate - now%turn(load%body(1))
@@ -103,8 +72,20 @@ contains
     type(applied_load_t), intent(in) :: load !! along a line
     real(wp) :: axis(2)
 
-    axis = place_in(linkage, pose, load%at(2)) - place_in(linkage, pose, load%at(1))
-    if (norm2(axis) > 0.0_wp) axis = axis/norm2(axis)
+    axis = distance_axis(ends_of(linkage, pose, load))
   end function load_axis
+
+  pure function ends_of(linkage, pose, load) result(ends)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(applied_load_t), intent(in) :: load
+    type(frame_t) :: ends(2)
+
+    integer :: k
+
+    do k = 1, 2
+      ends(k) = terminal_frame(linkage, pose, load%at(k))
+    end do
+  end function ends_of
 
 end module load_coordinates

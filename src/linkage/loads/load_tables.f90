@@ -4,14 +4,15 @@ module load_tables
   use applied_load_types, only: applied_load_t, applies_between, over_angle, over_drive, &
     over_nothing, over_slider, over_travel
   use constants, only: degree
+  use coordinates, only: coordinate_value, slider_coordinate
   use cubic_splines, only: spline_values
   use errors, only: error_of_numerics, error_t, set_error
-  use group_equations, only: world_line
   use kinds, only: wp
   use linkages, only: drive_of_angle, linkage_t
-  use load_coordinates, only: counts_turns, load_deflection, place_in
+  use load_coordinates, only: counts_turns, load_deflection
   use pose_types, only: pose_t
   use poses, only: body_angle
+  use terminals, only: terminal_place
   use text, only: to_string
   implicit none (type, external)
   private
@@ -119,17 +120,14 @@ contains
     type(applied_load_t), intent(in) :: load !! with a table
     real(wp) :: x
 
-    real(wp) :: axis(2), point(2)
-
     select case (load%over)
     case (over_drive)
       x = pose%crank
       if (linkage%drives(1)%kind == drive_of_angle) x = x*degree
     case (over_slider)
-      call world_line(linkage, pose, load%number, axis, point)
-      x = dot_product(axis, pose%pin(:, linkage%sliders(load%number)%pin) - point)
+      x = coordinate_value(linkage, pose, slider_coordinate(linkage, load%number))
     case (over_travel)
-      x = dot_product(load%force, place_in(linkage, pose, load%at(1)) + pose%origin)/ &
+      x = dot_product(load%force, terminal_place(linkage, pose, load%at(1)) + pose%origin)/ &
         norm2(load%force)
     case (over_angle)
       x = body_angle(linkage, pose, load%number)

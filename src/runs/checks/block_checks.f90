@@ -1,6 +1,6 @@
 !> Blocks that leave the links along which they slide: at which positions, told before the run.
 module block_checks
-  use block_ends, only: block_place
+  use coordinates, only: coordinate_value, slider_coordinate
   use deck_lengths, only: crank_text, length_text
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use errors, only: error_of_reach, error_t
@@ -85,7 +85,7 @@ contains
     if (.not. allocated(error)) return
     ! Of all errors only that about a block leaves a pose, and it is about any of the blocks.
     if (error%place%pin == 0) return
-    place = block_place(linkage, pose, number)
+    place = coordinate_value(linkage, pose, slider_coordinate(linkage, number))
     associate (ends => linkage%sliders(number)%ends)
       excess = max(ends(1) - place, place - ends(2))
       if (excess <= 1.0e-9_wp*(ends(2) - ends(1))) excess = 0.0_wp
