@@ -163,6 +163,53 @@ if (kind eq "drive_forces") {
     }
 }
 
+# Coordinates by their units: lengths and angles have panels of their own, efforts and powers those that are not zero throughout.
+if (kind eq "coordinates" || kind eq "ratios") {
+    has_column(name) = strstrt(" ".columns." ", " ".name." ") > 0
+    in_time = has_column("time")
+    least_entries = 1
+    eval rows_of("coordinate".(has_column("value") ? " value" : ""))
+    kinds = words_in(table, "coordinates ".(asked eq "" || in_time ? "all" : asked_speed))
+    unit_at(k, place) = word(word(kinds, k), place)
+    array members_of[99]
+    source_of(k) = "$rows".word(members_of[panel], k)
+    pen_of(k) = 1 + (int(word(members_of[panel], k)) - 1)%16
+    shown_from(k, list) = k > words(list) ? "" : sprintf(" \"%s\"", word(shown, int(word(list, k)))).shown_from(k + 1, list)
+    reference = kind eq "ratios" ? inside(answer(table, "reference"), name_length) : ""
+    headline = kind eq "ratios" ? "Changes of coordinates per change of ".reference : \
+        in_time ? "Coordinates of the linkage in motion" : "Coordinates of the linkage, ".moment
+    if (in_time) { eval over("time", "time") }
+    note = kind eq "ratios" ? "a force along a coordinate is balanced by its ratio times this force along ".reference : ""
+    # Column, title, place of the unit in `kinds`, kind, whether there has to be an effort. Six in a panel; the others follow in the next.
+    plans = kind eq "ratios" ? "'ratio ratio 2 - 0'" : "'value length 2 length 0' 'value angle 2 angle 0' 'rate rate 3 length 0' 'rate rate 3 angle 0' ".\
+        "'effort force 4 length 1' 'effort moment 4 angle 1' 'power power 0 - 1'"
+    do for [plan in plans] {
+        column_drawn = word(plan, 1)
+        left = ""
+        do for [k=1:words(names)] {
+            fits = (word(plan, 4) eq "-" || unit_at(k, 1) eq word(plan, 4)) && (word(plan, 5) + 0 == 0 || unit_at(k, 5) + 0 == 1)
+            if (fits) { left = left." ".k }
+        }
+        if (!has_column(column_drawn)) { left = "" }
+        while (words(left) > 0) {
+            unit_of_plan(k) = word(plan, 3) + 0 == 0 ? value("unit_".column_drawn) : unit_at(k, word(plan, 3) + 0)
+            unit_drawn = unit_of_plan(int(word(left, 1)))
+            taken = ""
+            rest = ""
+            do for [k in left] {
+                fits = words(taken) < 6 && unit_of_plan(int(k)) eq unit_drawn
+                if (fits) { taken = taken." ".k } else { rest = rest." ".k }
+            }
+            left = rest
+            added = panel_of(word(plan, 2), unit_drawn eq "-" ? "" : unit_drawn, \
+                repeated(words(taken), sprintf("field('%s')", column_drawn)), shown_from(1, taken))
+            members_of[declared] = taken
+            if (word(plan, 5) + 0 == 1) { note = "force, moment: of springs, dampers and drives, positive where they make the coordinate grow; ".\
+                "power: what they give to the linkage" }
+        }
+    }
+}
+
 # The power lost in every joint that rubs, the force in it, and from another table what starts the linkage from rest.
 if (kind eq "friction") {
     headline = "Friction in the joints, ".moment

@@ -5,7 +5,7 @@
 #                                  as A:crank
 #   want="moving speed torque O2x" those of this column, at which some of the columns behind it is not zero throughout
 #   want="rows 20 link theta"      the rows at speed 20, or at `all`, a datablock for every link in the table's order, name1, name2 …; an empty line where rows have failed; angles theta and others behind it go on beyond
-#                                  180 degrees
+#                                  180 degrees, of coordinates those that are angles
 #   want="range f1 f2"             the least and the greatest value found in these columns
 #   want="positive error1 error2"  the same of values above zero; nothing if there are none
 #   want="change f1 0"             speed, crank and f1's change in percent against the rows of speed 0
@@ -32,6 +32,9 @@
 #                                  rows have failed: crank, frequency, 1 where a mark is drawn
 #   want="joints 20"               of reactions.dat with a row a pin and link at speed 20, a line a joint with a force: its number among them
 #                                  and its name, A, or A:crank where the links feel different forces; one for the two opposite ones of two links
+#   want="coordinates 20"          of coordinates.dat or ratios.dat at speed 20, or at `all`, a line a coordinate in the table's order: length or angle, its units of
+#                                  value (or ratio), rate and effort, whether its effort is not zero throughout
+#   want="reference"               the coordinate to which the ratios of ratios.dat refer
 #   want="limits"                  of linkage.dat of a linkage that is no four-bar: a line a range of the first drive (1), a link that swings
 #                                  (2), a slider (3), a transmission angle (4) and a pressure angle (5): that number, the name, the least and
 #                                  the greatest value, where the drive is then, swing or stroke and time ratio (0: none), the name of what stops the
@@ -65,6 +68,7 @@ header && /^#/ && (NR == 1 || !/^# *failed /) {
     sub(/^# */, "")
     if (NR == 1) title = $0 == "(no title)" ? "" : $0
     if (/^(link +)?[23][: ]/) link_note = $0
+    head[++heads] = $0
     name_line = unit_line
     unit_line = $0
     next
@@ -131,7 +135,7 @@ asked[1] == "rows" {
     if (!(key in place)) { place[key] = ++places; rows_of[places] = "" }
     if (asked[2] == "all" || same($at["speed"], asked[2])) {
         if (gaps != gaps_before[key] && rows_of[place[key]] != "") rows_of[place[key]] = rows_of[place[key]] "\n"
-        for (i = 4; i <= n_asked; i++) {
+        for (i = 4; i <= n_asked && (asked[3] != "coordinate" || is_angle(key)); i++) {
             if ((key, i) in before) $at[asked[i]] = turned_on($at[asked[i]], before[key, i])
             before[key, i] = $at[asked[i]]
         }
@@ -296,8 +300,16 @@ asked[1] == "joints" && same($at["speed"], asked[2]) {
     value[pin[k]] = number
 }
 
+asked[1] == "coordinates" && (asked[2] == "all" || same($at["speed"], asked[2])) {
+    key = $at["coordinate"] ""
+    if (!(key in place)) { place[key] = ++places; met_name[places] = key }
+    if (("effort" in at) && $at["effort"] + 0 != 0) moving[key] = 1
+}
+
 END {
     if (header) name_columns()
+    if (asked[1] == "coordinates") print_coordinates()
+    if (asked[1] == "reference") print_reference()
     if (asked[1] == "rows") for (i = 1; i <= places; i++) printf "$%s%d << EOD\n%s%s", datablock, i, rows_of[i] == "" ? nothing() : rows_of[i], i < places ? "EOD\n" : ""
     if (asked[1] == "joints") print_joints()
     if (asked[1] == "facts") print_facts()
@@ -334,12 +346,45 @@ function is_number(text) {
 function is_name(text) { return text ~ /^[A-Za-z0-9_.\047:()+-]+$/ }
 
 # Where the program has no value it may write a dash.
+# Where columns have no unit of their own the head has those of every coordinate.
+function print_coordinates(    i, k, told, units, names) {
+    split(("ratio" in at) ? "ratio" : "value rate acceleration effort", names, " ")
+    for (i = 1; i <= places; i++) {
+        for (k = 1; k in names; k++) units[k] = (names[k] in at) ? unit[at[names[k]]] : "-"
+        for (k = 1; k <= heads; k++) {
+            if (index(head[k], met_name[i] ": ") != 1) continue
+            told = substr(head[k], length(met_name[i]) + 3)
+            if (told ~ /^[^ ,]+(, [^ ,]+, [^ ,]+, [^ ,]+)?$/) split(told, units, ", ")
+        }
+        print (units[1] == "deg" || units[2] ~ /^(rad\/s|rpm)$/ ? "angle" : "length"), units[1], (2 in names) ? units[2] : "-", \
+            (4 in names) ? units[4] : "-", (met_name[i] in moving) ? 1 : 0
+    }
+}
+
+# Whether the values of a coordinate are angles, as the column says, or the head.
+function is_angle(key,    k) {
+    if (!(key in angle)) {
+        angle[key] = unit[at["value"]] == "deg"
+        for (k = 1; k <= heads; k++) if (index(head[k], key ": deg, ") == 1) angle[key] = unit[at["value"]] == "see_head"
+    }
+    return angle[key]
+}
+
+function print_reference(    k) {
+    for (k = 1; k <= heads; k++) {
+        if (!sub(/^ratio: change of the coordinate per change of /, "", head[k])) continue
+        sub(/;.*/, "", head[k])
+        print head[k]
+        return
+    }
+}
+
 function may_lack(column) {
     return column ~ /^(least|mean|greatest|band_error|[a-z]*_crank|quadratic|out_of_plane|distance|error)$/
 }
 
 function has_names(column) {
-    return column ~ /^(branch|drive|event|gauge|joint|kind|link|linkage|modes|part|pin|place|point|quantity|unit|verdict)$/
+    return column ~ /^(branch|coordinate|drive|event|gauge|joint|kind|link|linkage|modes|part|pin|place|point|quantity|unit|verdict)$/
 }
 
 # Once for every column; what is odd is shown as far as a terminal should see it.

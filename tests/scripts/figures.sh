@@ -462,6 +462,32 @@ installed_plots() {
   silent && [ "$(wc -l <"$scratch/stdout")" -eq 3 ]
 }
 
+# Coordinates over positions, of lengths and angles, at several speeds, and in a motion; of a table with chosen columns what it has.
+coordinate_figures() {
+  run 0 --quiet --out "$scratch/out" inputs/suspension.deck || return 1
+  drawn suspension figures coordinates equilibrium linkage linkage_positions motion motion_coordinates point_rates ratios || return 1
+  cat >"$scratch/vane.deck" <<'END_OF_DECK'
+UNITS mm kg s
+GROUND O 0 0
+GROUND H 60 90
+GUIDE bore 0 -20 angle=10
+LINK crank O A length=45
+LINK rod A B length=145
+SLIDER B bore
+DRIVE crank
+BRANCH B forward
+SPRING main H A stiffness=3N/mm free_length=75
+DAMPER vane O crank damping=0.3N*m*s
+MEASURE bend angle rod against crank
+CRANK 0 to 360 step 15
+SPEED 10 20
+REPORT coordinates ratio_to=vane
+END_OF_DECK
+  sed 's/ratio_to=vane/columns=rate/' "$scratch/vane.deck" >"$scratch/rates.deck"
+  run 0 --quiet --out "$scratch/out" "$scratch/vane.deck" "$scratch/rates.deck" || return 1
+  drawn vane figures coordinates_speed_10 coordinates_speed_20 ratios && drawn rates figures coordinates_speed_10 coordinates_speed_20
+}
+
 # Linkages that are no four-bars: a slider on a link and one on a guide; a driven slider, which goes to and fro; a row that fails.
 other_linkages() {
   run 0 --quiet --out "$scratch/out" inputs/quick_return.deck inputs/toggle_press.deck inputs/klann.deck || return 1
@@ -609,6 +635,7 @@ check "no drawing of a linkage without the program" without_program
 check "links with odd names are placed" odd_names
 check "pins that meet" meeting_pins
 check "figures of other linkages than four-bars" other_linkages
+check "figures of coordinates" coordinate_figures
 check "figures and animations of motions, ranges and pins" moving_linkages
 check "what is fixed to a link moves with it" moving_places
 check "shapes of other linkages" drawn_shapes
