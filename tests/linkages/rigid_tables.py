@@ -4,8 +4,8 @@
 
 Four-bars, slider-cranks and six-bars with loads of many kinds and friction, over full turns.  Values with an error column (sizing,
 equilibrium) differ by the sum of both errors at most; all others (kinematics, pins, reactions, bearings, frame, drive, shaking,
-friction, holding, lagrange, balance, harmonics, linkage) by 1e-10 of the largest of their kind.  The last lines have, for every
-report, how many values there were, the largest difference, and of estimates the shares with a difference beyond 1, 0.1 and 0.01 of
+friction, holding, lagrange, balance, harmonics, linkage, coordinates, ratios) by 1e-10 of the largest of their kind.  Coordinates are
+compared with the pins and links of the same deck, too.  The last lines have, for every report, how many values there were, the largest difference, and of estimates the shares with a difference beyond 1, 0.1 and 0.01 of
 the estimate.  --smooth leaves out friction and loads against the motion: cases are five times faster, and all have an equilibrium.
 """
 import argparse
@@ -26,6 +26,10 @@ ANGLES = {"theta", "theta3", "theta4"}
 # Mirrored, these have the other sign; so have the forces of angular drives.
 ODD = {"omega", "omega3", "omega4", "alpha", "alpha3", "alpha4", "moment", "shaking_moment", "frame_moment", "transverse", "torque", "angle",
        "balanced_moment", "balanced_torque", "V", "gravity", "load", "dM", "rate", "position"}
+
+
+WAY = (0.6, -0.8)                       # of the measure `lift`
+ANGULAR = {"lean", "bend"}              # measures that are angles
 
 
 class Look:
@@ -79,6 +83,16 @@ class Linkage:
         self.coefficients = [draw.uniform(0.01, 0.12) for _ in range(4)]
         if smooth:
             self.rubs, self.during, self.damping, self.resisting = False, None, None, None
+
+    def measures(self, look, out, last):
+        """MEASURE cards, of lengths but for two."""
+        forms = [f"far distance O {last}", f"ahead along {last} crank", f"aside across {last} crank", f"lean angle {out}",
+                 f"bend angle {out} against crank"]
+        words = {"distance", "along", "across", "angle", "against"}
+        for form in forms:
+            yield "MEASURE " + " ".join(word if word in words else look.name(word) for word in form.split())
+        yield "MEASURE {} travel {} {!r} {!r}".format(look.name("lift"), look.name(last), *look.place(*WAY))
+        yield f"MEASURE {look.name('total')} sum 2 {look.name('far')} -0.5 {look.name('lift')}"
 
     def reports(self):
         """Those that a deck may have."""
@@ -144,6 +158,7 @@ class Linkage:
             stiffness, free, x, y = self.spring
             pivot("S", x, y)
             cards.append(f"SPRING {name('coil')} {name('S')} {name(last)} stiffness={stiffness!r}N/m free_length={length(free)}")
+        cards += self.measures(look, out, last)
         if self.rubs:
             cards.append(f"FRICTION {name('O')} radius=0.02m coefficient={self.coefficients[0]!r} smooth=0.5rad/s")
             if self.kind != "four_bar":
@@ -159,7 +174,8 @@ class Linkage:
         cards.append("CRANK " + " ".join(repr(look.angle(crank)) for crank in self.cranks))
         cards.append(f"SPEED {look.sign * self.speed!r} alpha={look.sign * self.alpha!r}")
         cards.append("INERTIA distributed")
-        return "\n".join(cards + ["REPORT " + report for report in self.reports()]) + "\n"
+        reports = self.reports() + [f"coordinates ratio_to={name('far')}"]
+        return "\n".join(cards + ["REPORT " + report for report in reports]) + "\n"
 
 
 def in_metres(table, column, value):
@@ -257,6 +273,94 @@ def plain_name(look, text):
     return text
 
 
+def coordinates_of(look, table):
+    """Rows of coordinates.dat or ratios.dat by position and name, in the terms of the plain deck, in metres."""
+    found = {}
+    for row in table.rows:
+        name = plain_name(look, row["coordinate"])
+        length = 1e-3 if look.millimetres else 1.0
+        if name in ANGULAR:
+            sign, factor = look.sign, {"ratio": 1/length}
+        else:
+            sign, factor = look.sign if name == "aside" else 1, {"value": length, "rate": length, "acceleration": length}
+        values = {column: sign*value*factor.get(column, 1.0) for column, value in row.items() if column not in ("speed", "crank", "coordinate")}
+        if name == "lean" and "value" in values:
+            values["value"] -= look.sign*look.turn
+        if name in ANGULAR and "value" in values:
+            values["value"] = (values["value"] + 180) % 360 - 180
+        if "power" in values:
+            values["power"] *= sign
+        found[round((look.sign*(row["crank"] - look.turn)) % 360, 6) % 360, name] = values
+    return found
+
+
+def compare_coordinates(comparison, name, look, one, other):
+    """Those of both decks."""
+    first, second = coordinates_of(Look(), one), coordinates_of(look, other)
+    if set(first) != set(second):
+        comparison.wrong.append(f"{name}: rows {sorted(map(str, set(first) ^ set(second)))[:2]}")
+        return
+    scales = {}
+    for (_, coordinate), row in first.items():
+        for column, value in row.items():
+            kind = coordinate in ANGULAR, column
+            scales[kind] = max(scales.get(kind, 0.0), abs(value))
+    for key, row in first.items():
+        for column, value in row.items():
+            got, kind = second[key][column], (key[1] in ANGULAR, column)
+            if kind == (True, "value"):
+                comparison.plain(name, f"{key} {column}", (value - got + 180) % 360 - 180, 0.0, 180)
+            else:
+                comparison.plain(name, f"{key} {column}", value, got, scales[kind])
+
+
+def compare_with_pins(comparison, linkage, tables):
+    """The coordinates of a plain deck with its pins and links."""
+    rows, last = coordinates_of(Look(), tables["coordinates"]), "B" if linkage.kind == "slider_crank" else "E"
+    pins, links = ({(round(row["crank"] % 360, 6) % 360, row[what]): row for row in tables[table].rows}
+                   for table, what in (("pins", "pin"), ("kinematics", "link")))
+    fields = "value", "rate", "acceleration"
+    expected = {}
+    for crank in {key[0] for key in rows}:
+        x, v, a = ([pins[crank, last][column + axis] for axis in "xy"] for column in ("", "v", "a"))
+        crank_link, out = links[crank, "crank"], links[crank, "rod" if linkage.kind == "slider_crank" else "rocker"]
+        expected[crank, "far"] = distance_of(x, v, a)
+        expected[crank, "lift"] = [WAY[0]*u[0] + WAY[1]*u[1] for u in (x, v, a)]
+        expected[crank, "total"] = [2*far - 0.5*lift for far, lift in zip(expected[crank, "far"], expected[crank, "lift"])]
+        expected[crank, "lean"] = [out["theta"], out["omega"], out["alpha"]]
+        expected[crank, "bend"] = [out[column] - crank_link[column] for column in ("theta", "omega", "alpha")]
+        expected[crank, "ahead"], expected[crank, "aside"] = turning_axes(x, v, a, crank_link)
+        if linkage.spring:
+            stiffness, free, *end = linkage.spring
+            expected[crank, "coil"] = distance_of([x[0] - end[0], x[1] - end[1]], v, a)
+            comparison.plain("coordinates by pins", f"{crank} coil effort", rows[crank, "coil"]["effort"],
+                             -stiffness*(expected[crank, "coil"][0] - free), stiffness)
+    scales = [max(abs(values[k]) for values in expected.values()) for k in range(3)]
+    for key, values in expected.items():
+        for k, field in enumerate(fields):
+            difference = rows[key][field] - values[k]
+            if key[1] in ANGULAR and k == 0:
+                difference = (difference + 180) % 360 - 180
+            comparison.plain("coordinates by pins", f"{key} {field}", difference, 0.0, scales[k])
+
+
+def distance_of(x, v, a):
+    """The distance from the origin, its rate and acceleration."""
+    size = math.hypot(*x)
+    rate = (x[0]*v[0] + x[1]*v[1])/size
+    return [size, rate, (x[0]*a[0] + x[1]*a[1] + v[0]**2 + v[1]**2 - rate**2)/size]
+
+
+def turning_axes(x, v, a, link):
+    """A place, velocity and acceleration along a link from the origin, and to the left of it, as seen from the link."""
+    cosine, sine = math.cos(math.radians(link["theta"])), math.sin(math.radians(link["theta"]))
+    along, left = ([u[0]*cosine + u[1]*sine for u in (x, v, a)], [u[1]*cosine - u[0]*sine for u in (x, v, a)])
+    w, h = link["omega"], link["alpha"]
+    seen = [along[1] + w*left[0], left[1] - w*along[0]]
+    return ([along[0], seen[0], along[2] + h*left[0] + 2*w*seen[1] + w**2*along[0]],
+            [left[0], seen[1], left[2] - h*along[0] - 2*w*seen[0] + w**2*left[0]])
+
+
 def compare_sizing(comparison, look, one, other):
     """Errors are shares of the peak of the part; of a flywheel of the value."""
     first, second = ({(plain_name(how, row["part"]), plain_name(how, row["pin"]), row["quantity"]): row for row in table.rows}
@@ -324,8 +428,12 @@ def check(linkage, seed, program, folder, comparison):
             compare_sizing(comparison, look, table, other)
         elif name == "equilibrium":
             compare_equilibrium(comparison, look, table, other)
+        elif name in ("coordinates", "ratios"):
+            compare_coordinates(comparison, name, look, table, other)
         elif name in ("kinematics", "pins", "reactions", "bearings", "frame", "drive", "shaking", "friction", "lagrange", "balance"):
             compare_plain(comparison, name, look, table, other)
+    if linkage.kind != "four_bar" and not tables[0]["coordinates"].failed:
+        compare_with_pins(comparison, linkage, tables[0])
 
 
 def main():
