@@ -99,10 +99,13 @@ contains
     if (.not. fine) return
     measure%links(1) = card%words(3)
     if (size(card%words) == 3) return
-    fine = size(card%words) == 5
-    if (fine) fine = same_word(card%words(4)%text, "against")
-    if (fine) then
+    fine = same_word(card%words(4)%text, "against")
+    if (fine .and. size(card%words) == 5) then
       measure%links(2) = card%words(5)
+    else if (fine) then
+      fine = .false.
+      call add_error(diagnostics, card%words(4), "'against' is followed by a link; expected: "// &
+        form_of("angle"))
     else
       call add_error(diagnostics, card%words(4), "unexpected '"//card%words(4)%text// &
         "'; expected: "//form_of("angle"))

@@ -13,7 +13,7 @@ module measure_checks
   use named_coordinates, only: coordinate_number, find_named_coordinates, named_coordinate_t, &
     of_measure
   use spelling, only: suggestion
-  use spring_checks, only: check_ends, refuse_still_links, seek_place
+  use spring_checks, only: check_ends, is_on_weld, refuse_still_links, seek_place
   use summary_cards, only: summary_card_t
   use summary_quantities, only: quantity_kinds
   use text, only: same_word, string_t
@@ -94,6 +94,9 @@ contains
             "coordinates; give one another name", all_names(first)%word, "the other is here")
         end associate
       end do
+      if (report%ratio_to%line > 0 .and. size(all_names) == 1) call add_error(diagnostics, &
+        report%ratio_to, "there is no other coordinate to be compared with '"// &
+        all_names(1)%name//"'; expected: "//pattern_of("MEASURE"))
     end associate
     do i = 1, size(model%reports)
       associate (report => model%reports(i))
@@ -198,6 +201,13 @@ contains
         if (joins(model, measure%line_link, pin%text)) call add_error(diagnostics, line, &
           "'"//pin%text//"' is a place of link '"//line%text//"': it does not move in its "// &
           "axes", model%links(measure%line_link)%name, "the link is here")
+        do i = 1, size(model%welds)
+          if (.not. any(model%welds(i)%link == measure%line_link)) cycle
+          if (joins(model, measure%line_link, pin%text) .or. .not. is_on_weld(model, i, pin)) cycle
+          call add_error(diagnostics, line, "'"//pin%text//"' is on a link that is welded to '"// &
+            line%text//"': it does not move in its axes", model%welds(i)%pin, &
+            "they are welded here")
+        end do
       else if (measure%guide > 0 .and. find_name(grounds, pin%text) > 0) then
         call add_error(diagnostics, pin, "'"//pin%text//"' and the guide are fixed: nothing "// &
           "moves between them", model%grounds(find_name(grounds, pin%text))%pin, &

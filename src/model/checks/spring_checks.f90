@@ -16,7 +16,8 @@ module spring_checks
   implicit none (type, external)
   private
 
-  public :: read_springs, check_springs, is_on_link, seek_place, check_ends, refuse_still_links
+  public :: read_springs, check_springs, is_on_link, is_on_weld, seek_place, check_ends, &
+    refuse_still_links
 
   !> Relative difference of a length from that in the drawing that is more than rounding [-].
   real(wp), parameter :: least_difference = 1.0e-4_wp
@@ -186,9 +187,9 @@ contains
 
   !> Whether one of the links of a weld has a pin or a point.
   pure function is_on_weld(model, weld, word) result(is)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: weld !! number of the WELD card
-    type(token_t), intent(in) :: word
+    type(model_t), intent(in) :: model !! with its links and welds looked up
+    integer, intent(in) :: weld        !! number of the WELD card
+    type(token_t), intent(in) :: word  !! name of the pin or the point
     logical :: is
 
     integer :: i
