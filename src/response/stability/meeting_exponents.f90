@@ -6,6 +6,7 @@ module meeting_exponents
   use exponent_meetings, only: exponent_pair_t
   use floquet_exponents, only: find_floquet_modes, find_floquet_pair, floquet_mode_t, floquet_pair_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
+  use interruption, only: was_interrupted
   use kinds, only: wp
   use multiplier_stations, only: left_of, plane_t, state_of
   use order_transfer, only: transferred_halves
@@ -261,6 +262,9 @@ contains
         self%spectrum%motion, place, damping_of(self%request%damping, self%level%grid), &
         self%request%terms, max(0.25_wp*fine_change*abs(exponent(1) - exponent(2)), least_change), &
         self%spectrum%mode, mode(:n), found(:n), known)
+      ! Then nothing has been found.
+      good = .not. was_interrupted()
+      if (.not. good) return
       better = found%exponent
       where (conjugate) better = conjg(better)
       if (n == 1) then
@@ -306,6 +310,8 @@ contains
       call find_floquet_pair(self%level%grid, self%plan, self%level%basis(self%slow), &
         self%spectrum%motion, place, damping_of(self%request%damping, self%level%grid), &
         self%request%terms, self%spectrum%mode, self%pair)
+      good = .not. was_interrupted()
+      if (.not. good) return
       exponent = self%pair%exponent
       call check(exponent(1) - exponent(2), merge(conjg(apart), apart, conjugate(1)), &
         self%pair%change)
