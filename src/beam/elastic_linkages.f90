@@ -7,7 +7,7 @@
 !! hinge, or it is held: it turns with a rotation, which other parts may share (a corner, a cut, a
 !! weld, a block that does not turn, a spring), or not at all (at a drive).
 module elastic_linkages
-  use applied_load_types, only: applied_load_t, applies_along, applies_between
+  use applied_load_types, only: applied_load_t, applies_along, is_torsional
   use beam_mesh, only: beam_t
   use cut_ways, only: carried_t, cut_way_t, find_ways, fixed_lumps, nearest_way
   use kinds, only: wp
@@ -90,7 +90,7 @@ contains
     type(applied_load_t), intent(in) :: load
     logical :: is
 
-    is = load%damping > 0.0_wp .and. (load%kind == applies_along .or. load%kind == applies_between)
+    is = load%damping > 0.0_wp .and. load%kind == applies_along
   end function is_damper
 
   !> Divides a linkage into parts.
@@ -398,8 +398,8 @@ contains
       associate (load => linkage%loads(springs(i)%load))
         do k = 1, 2
           springs(i)%rotation(k) = fixed_rotation
-          if (load%body(k) > 0) springs(i)%rotation(k) = number_of(ends, load%body(k), &
-            spring_pin(linkage, springs(i)%load))
+          if (load%along%at(k)%body > 0) springs(i)%rotation(k) = number_of(ends, &
+            load%along%at(k)%body, spring_pin(linkage, springs(i)%load))
         end do
       end associate
     end do
@@ -422,10 +422,11 @@ contains
         spring%load = loads(i)
         spring%stiffness = load%stiffness
         spring%damping = load%damping
-        spring%turns = load%kind == applies_between
+        spring%turns = is_torsional(load)
         if (.not. spring%turns) cycle
         do k = 1, 2
-          if (load%body(k) > 0) call add_end(ends, load%body(k), spring_pin(linkage, loads(i)))
+          if (load%along%at(k)%body > 0) call add_end(ends, load%along%at(k)%body, &
+            spring_pin(linkage, loads(i)))
         end do
       end associate
     end do
@@ -438,8 +439,8 @@ contains
     integer :: pin
 
     associate (load => linkage%loads(number))
-      pin = load%at(1)%pin
-      if (pin == 0) pin = shared_pin(linkage, load%body(2), load%body(1))
+      pin = load%hinge
+      if (pin == 0) pin = shared_pin(linkage, load%along%at(2)%body, load%along%at(1)%body)
     end associate
   end function spring_pin
 

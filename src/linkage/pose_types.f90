@@ -20,6 +20,8 @@ module pose_types
   type :: pose_t
     real(wp) :: crank = 0.0_wp               !! coordinate of the first drive, with all whole turns
                                              !! [deg] or [m]
+    real(wp) :: time = 0.0_wp                !! of an instant of a motion or of a law [s]
+    logical :: has_time = .false.            !! it is one; else a position
     real(wp) :: origin(2) = 0.0_wp           !! from which its pins are counted, in global axes [m]
     real(wp), allocatable :: pin(:, :)       !! (2, pins) positions [m]
     real(wp), allocatable :: direction(:, :) !! (2, bodies) unit vectors, first → last pin

@@ -1,17 +1,17 @@
 !> Model → the coordinates of the linkage that have names.
 module coordinate_builder
-  use applied_load_types, only: applied_load_t, applies_along
-  use coordinate_types, only: coordinate_t, is_across, is_along, is_angle, is_sum, terminal_t
+  use coordinate_types, only: coordinate_t, is_across, is_along, is_sum, terminal_t
   use coordinates, only: slider_coordinate
   use group_equations, only: direction_at
-  use linkages, only: drive_of_angle, linkage_t
+  use linkages, only: linkage_t
   use measure_cards, only: measure_across, measure_angle, measure_card_t, measure_distance, &
     measure_sum, measure_travel
   use models, only: model_t
   use name_index, only: find_name, name_index_t
   use named_coordinates, only: coordinate_number, find_named_coordinates, named_coordinate_t, &
     of_measure, of_ram, of_slider, of_spring
-  use spring_builder, only: place_of
+  use process_cards, only: over_measure
+  use spring_builder, only: angle_between, place_of
   implicit none (type, external)
   private
 
@@ -21,34 +21,37 @@ module coordinate_builder
   type :: listed_coordinate_t
     character(len=:), allocatable :: name
     logical :: is_angle = .false. !! else a length
-    integer :: load = 0           !! number of its spring or damper among the loads; 0: none
     integer :: drive = 0          !! number of the drive that gives it; 0: none
   end type listed_coordinate_t
 
 contains
 
-  !> The coordinates of springs and dampers, rams, sliders and measures, in this order.
+  !> The coordinates of springs and dampers, rams, sliders and measures, in this order, and what
+  !! tables of loads are over among them.
   pure subroutine build_coordinates(model, links, pins, linkage, listed)
     type(model_t), intent(in) :: model         !! without errors
     integer, intent(in) :: links(:)            !! (bodies) numbers of their links in the model
     type(name_index_t), intent(in) :: pins     !! names of the pins
-    type(linkage_t), intent(inout) :: linkage  !! with its loads, springs last; gets coordinates
+    type(linkage_t), intent(inout) :: linkage  !! with its loads: processes, then springs;
+                                               !! gets coordinates
     type(listed_coordinate_t), allocatable, intent(out) :: listed(:) !! (coordinates)
 
     type(named_coordinate_t), allocatable :: named(:)
-    integer :: i, first_spring
+    integer :: i
 
     call find_named_coordinates(model, named)
     allocate (linkage%coordinates(size(named)), listed(size(named)))
-    first_spring = size(linkage%loads) - size(model%springs)
     do i = 1, size(named)
       listed(i)%name = named(i)%name
       listed(i)%is_angle = named(i)%is_angle
       associate (it => linkage%coordinates(i), number => named(i)%number)
         select case (named(i)%source)
         case (of_spring)
-          listed(i)%load = first_spring + number
-          call take_load(linkage, linkage%loads(first_spring + number), it)
+          associate (spring => linkage%loads(size(model%processes) + number))
+            spring%coordinate = i
+            it = spring%along
+          end associate
+          it%at = [terminal_of(linkage, it%at(1)), terminal_of(linkage, it%at(2))]
         case (of_ram)
           listed(i)%drive = number
           it%drive = held_by(linkage, number)
@@ -63,28 +66,15 @@ contains
         case (of_measure)
           call take_measure(model, links, pins, named, model%measures(number), linkage, it)
         end select
-        if (it%kind == is_angle) it%drive = drive_of(linkage, it)
+      end associate
+    end do
+    do i = 1, size(model%processes)
+      associate (process => model%processes(i))
+        if (process%over == over_measure) linkage%loads(i)%variable = &
+          linkage%coordinates(process%number)
       end associate
     end do
   end subroutine build_coordinates
-
-  !> The line between the ends of a spring, or the angle between its bodies.
-  pure subroutine take_load(linkage, load, coordinate)
-    type(linkage_t), intent(in) :: linkage
-    type(applied_load_t), intent(in) :: load
-    type(coordinate_t), intent(inout) :: coordinate
-
-    integer :: k
-
-    do k = 1, 2
-      if (load%kind == applies_along) then
-        coordinate%at(k) = terminal_of(linkage, load%at(k))
-      else
-        coordinate%kind = is_angle
-        coordinate%at(k) = heading_of(linkage, load%body(k))
-      end if
-    end do
-  end subroutine take_load
 
   !> A terminal at a place of a spring, which counts fixed places from a ground pivot.
   pure function terminal_of(linkage, place) result(at)
@@ -99,16 +89,6 @@ contains
     at%place = linkage%ground_position(:, place%pin) + place%place
   end function terminal_of
 
-  !> The direction of a body whose angle is that of the body; of the ground the x axis.
-  pure function heading_of(linkage, body) result(at)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: body !! 0: the ground
-    type(terminal_t) :: at
-
-    at%body = body
-    if (body > 0) at%direction = linkage%bodies(body)%heading
-  end function heading_of
-
   !> A drive that gives a value at every position; 0 of one that is free there.
   pure function held_by(linkage, drive) result(number)
     type(linkage_t), intent(in) :: linkage
@@ -118,21 +98,6 @@ contains
     number = drive
     if (drive > 1) number = merge(0, drive, linkage%drives(drive)%is_free)
   end function held_by
-
-  !> The drive that gives an angle, with all whole turns; 0: none does.
-  pure function drive_of(linkage, coordinate) result(number)
-    type(linkage_t), intent(in) :: linkage
-    type(coordinate_t), intent(in) :: coordinate
-    integer :: number
-
-    do number = 1, size(linkage%drives)
-      associate (drive => linkage%drives(number))
-        if (drive%kind == drive_of_angle .and. drive%body == coordinate%at(2)%body .and. &
-          drive%against == coordinate%at(1)%body .and. held_by(linkage, number) > 0) return
-      end associate
-    end do
-    number = 0
-  end function drive_of
 
   !> What a MEASURE card says.
   pure subroutine take_measure(model, links, pins, named, measure, linkage, coordinate)
@@ -153,10 +118,9 @@ contains
           measure%places(i)%text))
       end do
     case (measure_angle)
-      coordinate%kind = is_angle
-      if (measure%link(2) > 0) coordinate%at(1) = heading_of(linkage, findloc(links, &
-        measure%link(2), dim=1))
-      coordinate%at(2) = heading_of(linkage, findloc(links, measure%link(1), dim=1))
+      i = 0
+      if (measure%link(2) > 0) i = findloc(links, measure%link(2), dim=1)
+      coordinate = angle_between(linkage, i, findloc(links, measure%link(1), dim=1))
     case (measure_sum)
       coordinate%kind = is_sum
       coordinate%weight = measure%weights

@@ -2,8 +2,8 @@
 module load_words
   use kinds, only: wp
   use models, only: model_t
-  use process_cards, only: over_angle, over_drive, over_nothing, over_slider, over_travel, &
-    process_card_t, process_force, process_resistance, process_torque
+  use process_cards, only: over_angle, over_drive, over_measure, over_nothing, over_slider, &
+    over_time, over_travel, process_card_t, process_force, process_resistance, process_torque
   use text, only: to_string
   use units, only: coherent_unit, dimension_damping, dimension_length, dimension_line_damping, &
     dimension_velocity, from_si, unit_t
@@ -106,6 +106,10 @@ contains
       words = words//" over the travel of "//process%over_word%text
     case (over_angle)
       words = words//" over the angle of "//process%over_word%text
+    case (over_measure)
+      words = words//" over "//process%over_word%text
+    case (over_time)
+      words = words//" over the time"
     end select
     if (process%is_periodic) words = words//", periodic"
   end function table_words

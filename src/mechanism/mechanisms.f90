@@ -27,6 +27,7 @@ module mechanisms
   use response_builder, only: body_gauge_t, gauges_of, response_points_of
   use shear, only: link_rotary_inertia, link_shear_stiffness
   use spring_builder, only: springs_of
+  use stop_builder, only: stops_of
   use structures, only: structure_t
   use text, only: string_t
   use tokens, only: token_texts
@@ -96,9 +97,9 @@ contains
     do i = 1, size(links)
       mechanism%linkage%bodies(i)%forced = forced_places(mechanism%linkage%loads, i)
     end do
-    ! Springs are the last: `spring_words` finds them there.
     call append_loads(springs_of(model, assembly%link, pins, mechanism%linkage), mechanism%linkage)
     call build_coordinates(model, assembly%link, pins, mechanism%linkage, mechanism%coordinates)
+    call append_loads(stops_of(model, mechanism%linkage), mechanism%linkage)
     mechanism%linkage%frictions = frictions_of(model, assembly%link, pins, mechanism%linkage)
     if (size(mechanism%beams) > 0 .and. needs_parts(mechanism%linkage)) mechanism%elastic = &
       new_elastic_linkage(mechanism%linkage, mechanism%beams)

@@ -1,16 +1,18 @@
 !> Model → loads of processes on the linkage.
 module process_builder
   use applied_load_types, only: acts_against_motion, acts_always, acts_with_motion, &
-    applied_load_t, applies_couple, applies_force, load_over_angle => over_angle, &
-    load_over_drive => over_drive, load_over_slider => over_slider, load_over_travel => over_travel
+    applied_load_t, applies_couple, applies_force, over_coordinate, over_time
   use body_attachments, only: place_on_body
-  use cubic_splines, only: ends_not_a_knot, ends_periodic, new_cubic_spline
+  use coordinate_types, only: is_along
+  use coordinates, only: slider_coordinate
+  use cubic_splines, only: ends_not_a_knot, ends_periodic, new_cubic_spline, new_monotone_spline
   use kinds, only: wp
   use linkages, only: linkage_t, turned
   use models, only: model_t
   use name_index, only: find_name, name_index_t
-  use process_cards, only: over_angle, over_drive, over_nothing, over_slider, over_travel, &
-    process_card_t, process_force, process_resistance
+  use process_cards, only: over_angle, over_drive, over_nothing, over_slider, &
+    card_over_time => over_time, over_travel, process_card_t, process_force, process_resistance
+  use spring_builder, only: angle_between
   implicit none (type, external)
   private
 
@@ -19,7 +21,8 @@ module process_builder
 contains
 
   !> The loads of FORCE, TORQUE and LOAD cards that are not constant forces on pins or constant
-  !! torques.
+  !! torques, in the order of the deck. What a table over a coordinate with a name is over is left
+  !! to `build_coordinates`.
   pure function process_loads(model, links, pins, linkage) result(loads)
     type(model_t), intent(in) :: model        !! without errors
     integer, intent(in) :: links(:)           !! (bodies) numbers of their links in the model
@@ -35,16 +38,15 @@ contains
         load%kind = merge(applies_force, applies_couple, process%kind == process_force .or. &
           .not. process%on_link)
         if (process%on_link) then
-          load%body(1) = findloc(links, process%link, dim=1)
-          load%at(1)%body = load%body(1)
-          load%at(1)%place = place_on_body(linkage%bodies(load%body(1)), process%place)
+          load%at%body = findloc(links, process%link, dim=1)
+          load%at%place = place_on_body(linkage%bodies(load%at%body), process%place)
         else
-          load%at(1)%pin = find_name(pins, process%subject%text)
+          load%at%pin = find_name(pins, process%subject%text)
         end if
         load%force = process%force
         load%is_carried = process%in_link_axes
         if (load%is_carried) load%force = turned(process%force, &
-          linkage%bodies(load%body(1))%card_axis)
+          linkage%bodies(load%at%body)%card_axis)
         load%couple = process%torque
         if (process%kind == process_resistance) load%couple = -process%torque
         load%damping = process%damping
@@ -52,33 +54,43 @@ contains
         load%smooth = process%smooth
         load%during = merge(acts_with_motion, acts_against_motion, process%during > 0)
         if (process%during == 0) load%during = acts_always
-        if (process%over /= over_nothing) call set_table(process, links, load)
+        if (process%over /= over_nothing) call set_table(process, links, linkage, load)
       end associate
     end do
   end function process_loads
 
   !> The table of a load; its force is then a unit vector.
-  pure subroutine set_table(process, links, load)
+  pure subroutine set_table(process, links, linkage, load)
     type(process_card_t), intent(in) :: process
     integer, intent(in) :: links(:)
+    type(linkage_t), intent(in) :: linkage
     type(applied_load_t), intent(inout) :: load
 
     load%table_name = process%table_word%text
-    load%table = new_cubic_spline(process%x, process%y, merge(ends_periodic, ends_not_a_knot, &
-      process%is_periodic))
+    if (process%over == card_over_time) then
+      load%table = new_monotone_spline(process%x, process%y)
+    else
+      load%table = new_cubic_spline(process%x, process%y, merge(ends_periodic, ends_not_a_knot, &
+        process%is_periodic))
+    end if
     if (process%kind == process_force) load%force = load%force/norm2(load%force)
-    load%number = process%number
+    load%over = over_coordinate
     select case (process%over)
     case (over_drive)
-      load%over = load_over_drive
+      load%variable%drive = 1
     case (over_slider)
-      load%over = load_over_slider
+      load%variable = slider_coordinate(linkage, process%number)
     case (over_travel)
-      load%over = load_over_travel
+      load%variable%kind = is_along
+      load%variable%at(1)%direction = load%force
+      load%variable%at(2) = load%at
     case (over_angle)
-      load%over = load_over_angle
-      load%over_name = process%over_word%text
-      load%number = findloc(links, process%number, dim=1)
+      load%angle_name = process%over_word%text
+      load%variable = angle_between(linkage, 0, findloc(links, process%number, dim=1))
+      ! As in `kinematics.dat`, from −180° to 180°.
+      load%variable%drive = 0
+    case (card_over_time)
+      load%over = over_time
     end select
   end subroutine set_table
 

@@ -1,20 +1,21 @@
 !> Model → springs and dampers of the linkage.
 module spring_builder
-  use applied_load_types, only: applied_load_t, applies_along, applies_between
+  use applied_load_types, only: applied_load_t, applies_along
   use constants, only: degree
-  use coordinate_types, only: terminal_t
+  use coordinate_types, only: coordinate_t, is_angle, terminal_t
   use kinds, only: wp
   use link_shapes, only: find_drawn_place
-  use linkages, only: body_t, linkage_t, turned
-  use load_coordinates, only: counts_turns
+  use linkages, only: body_t, drive_of_angle, linkage_t, turned
   use models, only: model_t, report_number
   use name_index, only: find_name, name_index_t
+  use pulls, only: counts_turns
   use spring_cards, only: spring_card_t
+  use stop_builder, only: contact_width
   use text, only: same_word
   implicit none (type, external)
   private
 
-  public :: springs_of, place_of
+  public :: springs_of, place_of, angle_between
 
   !> Of a turn: an angle drawn at the first position is there.
   real(wp), parameter :: rounding = 1.0e-9_wp
@@ -34,28 +35,57 @@ contains
     allocate (loads(size(model%springs)))
     do i = 1, size(loads)
       associate (load => loads(i), spring => model%springs(i))
+        load%kind = applies_along
         if (spring%turns) then
-          load%kind = applies_between
           ! One link turns against the ground.
           if (spring%link(2) > 0) then
-            load%body(1) = findloc(links, spring%link(1), dim=1)
-            load%body(2) = findloc(links, spring%link(2), dim=1)
+            load%along = angle_between(linkage, findloc(links, spring%link(1), dim=1), &
+              findloc(links, spring%link(2), dim=1))
           else
-            load%body(2) = findloc(links, spring%link(1), dim=1)
+            load%along = angle_between(linkage, 0, findloc(links, spring%link(1), dim=1))
           end if
-          load%at(1)%pin = find_name(pins, spring%ends(1)%text)
+          load%hinge = find_name(pins, spring%ends(1)%text)
         else
-          load%kind = applies_along
           do k = 1, 2
-            load%at(k) = place_of(model, links, pins, linkage, spring%ends(k)%text)
+            load%along%at(k) = place_of(model, links, pins, linkage, spring%ends(k)%text)
           end do
         end if
         load%stiffness = spring%stiffness
         load%damping = spring%damping
         if (.not. spring%damps) call set_rest(model, pins, linkage, spring, load)
+        if (spring%side == 0) cycle
+        load%name = spring%name%text
+        load%side = spring%side
+        load%rest = load%rest + spring%side*spring%gap
+        load%contact = contact_width(linkage, spring%contact, spring%stiffness, spring%turns)
       end associate
     end do
   end function springs_of
+
+  !> The angle of a body less that of another one or of the ground; with whole turns where a drive
+  !! gives it at every position.
+  pure function angle_between(linkage, against, body) result(coordinate)
+    type(linkage_t), intent(in) :: linkage !! its drives
+    integer, intent(in) :: against         !! number of the body; 0: the ground
+    integer, intent(in) :: body            !! number
+    type(coordinate_t) :: coordinate
+
+    integer :: i
+
+    coordinate%kind = is_angle
+    coordinate%at%body = [against, body]
+    do i = 1, 2
+      associate (at => coordinate%at(i))
+        if (at%body > 0) at%direction = linkage%bodies(at%body)%heading
+      end associate
+    end do
+    do i = 1, size(linkage%drives)
+      associate (drive => linkage%drives(i))
+        if (drive%kind == drive_of_angle .and. drive%body == body .and. drive%against == against &
+          .and. .not. (drive%is_free .and. i > 1)) coordinate%drive = i
+      end associate
+    end do
+  end function angle_between
 
   !> The coordinate without load: given, or that of the drawing less the stretch of the load there.
   !! Without stiffness the load of the drawing stays.
@@ -75,10 +105,12 @@ contains
     else if (spring%has_rest) then
       load%rest = spring%rest
     else if (spring%turns) then
-      load%rest = drawn_angle(model, pins, linkage%bodies(load%body(2)))
-      if (load%body(1) > 0) load%rest = load%rest - drawn_angle(model, pins, &
-        linkage%bodies(load%body(1)))
-      if (counts_turns(linkage, load)) load%rest = turn_of_deck(model, load%rest)
+      associate (bodies => load%along%at%body)
+        load%rest = drawn_angle(model, pins, linkage%bodies(bodies(2)))
+        if (bodies(1) > 0) load%rest = load%rest - drawn_angle(model, pins, &
+          linkage%bodies(bodies(1)))
+      end associate
+      if (counts_turns(load)) load%rest = turn_of_deck(model, load%rest)
       load%rest = load%rest - spring%load/spring%stiffness
     else
       do k = 1, 2

@@ -51,6 +51,7 @@ module model_reader
   use sections, only: read_section
   use shear, only: check_shear
   use spelling, only: suggestion
+  use stop_checks, only: check_stops, read_stops
   use structure_checks, only: check_structure, describes_structure, take_structure
   use summary_needs, only: add_forces_of_drives, take_needs
   use spring_checks, only: check_springs, read_springs
@@ -115,6 +116,7 @@ contains
       call take_structure(model)
     call leave_out_idle_links(cards, diagnostics, model)
     call read_springs(cards, diagnostics, model)
+    call read_stops(cards, diagnostics, model)
     call read_frictions(cards, diagnostics, model)
     call check_tables(cards, diagnostics)
     call find_law(cards, diagnostics, model)
@@ -144,6 +146,7 @@ contains
     if (model%modes_word%line == 0) model%modes = max(1, min(model%modes, most_modes(model)))
     call check_springs(diagnostics, model)
     call check_measures(diagnostics, model)
+    call check_stops(diagnostics, model)
     call check_frictions(diagnostics, model)
     call check_balance(diagnostics, model)
     call find_dampings(diagnostics, model)

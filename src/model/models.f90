@@ -31,6 +31,7 @@ module models
   use response_cards, only: damping_card_t, gauge_card_t, omitted_terms_t
   use sections, only: section_t
   use spring_cards, only: spring_card_t
+  use stop_cards, only: stop_card_t
   use summary_cards, only: takes_from
   use text, only: same_word, to_string
   use tokens, only: token_t
@@ -86,6 +87,7 @@ module models
     type(process_card_t), allocatable :: processes(:) !! FORCE, TORQUE and LOAD cards on all
                                                 !! other loads
     type(spring_card_t), allocatable :: springs(:)   !! SPRING and DAMPER cards
+    type(stop_card_t), allocatable :: stops(:)       !! STOP cards
     type(friction_card_t), allocatable :: frictions(:) !! FRICTION cards
     type(measure_card_t), allocatable :: measures(:)   !! MEASURE cards
     type(balance_card_t) :: balance             !! counterweights of REPORT balance

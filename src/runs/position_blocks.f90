@@ -74,7 +74,8 @@ contains
         model%law_rates = whole%law_rates(:, before + 1:last)
       end if
       positions%period = blocks%sample%period
-      call list_block(whole%crank%value, blocks%first_alike, before, last, positions)
+      call list_block(whole%crank%value, blocks%first_alike, before, last, positions, &
+        whole%time%value)
     end associate
   end subroutine choose_block
 

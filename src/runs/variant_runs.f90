@@ -158,7 +158,7 @@ contains
         call place_positions(linkage, run%threads, variant%found%positions)
       else if (needs_positions(model)) then
         call find_all_positions(linkage, model%crank%value, run%threads, &
-          variant%found%positions, has_law(model))
+          variant%found%positions, model%time%value)
       else
         ! Crank angles that no report needs must not fail.
         call find_all_positions(linkage, none, run%threads, variant%found%positions)

@@ -20,8 +20,7 @@ contains
     real(wp), intent(in) :: crank(:)            !! (positions) as listed in the deck [deg]
     integer, intent(in) :: threads              !! number of OpenMP threads
     type(positions_t), intent(out) :: positions !! one state for every different angle
-    logical, intent(in), optional :: instants   !! one state for every position, see
-                                                !! `list_positions`
+    real(wp), intent(in), optional :: instants(:) !! (positions) as of `list_positions` [s]
 
     call list_positions(crank, positions, load_period(linkage, period_of(linkage)), instants)
     call place_positions(linkage, threads, positions)

@@ -59,6 +59,10 @@ module adaptive_integration
   !! last; a step over its zero has at most the second change of s.
   real(wp), parameter :: begin_of_switch = 2.0_wp, widest_switch = 4.0_wp, turned_over = 20.0_wp
 
+  !> A contact to this share of its width is not seen. The course of a depth between the ends of a
+  !! step differs by no more than the second share of its rise from the cubic.
+  real(wp), parameter :: unseen_depth = 1.0e-4_wp, rise_error = 1.0e-2_wp
+
   !> Passed through the library to `rates_for_library`.
   type :: request_t
     class(rate_system_t), pointer :: system => null()
@@ -245,7 +249,8 @@ contains
 
   !> Takes one step, as long as the error allows but not beyond `limit`, which is met exactly. State
   !! and time may have been changed since the last step. No step passes over a load that turns over
-  !! (`switches`): one ends where that begins, and those over it are short.
+  !! (`switches`): one ends where that begins, and those over it are short. None passes over a
+  !! contact (`contacts`) that begins and ends in it.
   !!
   !! Errors: no step is short enough, because the rates are not smooth or do not exist. State and
   !! time are unchanged then.
@@ -258,17 +263,19 @@ contains
     type(error_t), allocatable, intent(out) :: error      !! allocated if no step was made
 
     real(wp) :: time_before, before(size(state)), step
-    real(wp), allocatable :: switches(:, :)
+    real(wp), allocatable :: switches(:, :), contacts(:, :)
     logical :: is_implicit
 
     time_before = time
     before = state
     switches = system%switches(state)
+    contacts = system%contacts(state)
     do
       call take_step(integrator, system, time, limit, state, is_implicit, error)
       if (allocated(error)) return
-      if (size(switches) == 0) exit
-      step = (time - time_before)*share_before_switch(switches, system%switches(state))
+      if (size(switches) == 0 .and. size(contacts) == 0) exit
+      step = (time - time_before)*min(share_before_switch(switches, system%switches(state)), &
+        share_before_contact(contacts, system%contacts(state), time - time_before))
       ! Shorter than what time is rounded to, nothing is seen.
       if (step >= time - time_before .or. step < 16.0_wp*epsilon(1.0_c_double)*abs(time)) exit
       integrator%step = step
@@ -305,6 +312,52 @@ contains
       share = min(share, max(nearest - begin_of_switch/length, 0.5_wp*widest_switch/length))
     end do
   end function share_before_switch
+
+  !> The half of a step that may pass over a contact; else one. The course of a depth is taken as
+  !! the cubic of its values and rates at both ends, with a hundredth of its rise between them: by
+  !! more it does not differ in a step whose error is bounded.
+  pure function share_before_contact(before, after, step) result(share)
+    real(wp), intent(in) :: before(:, :), after(:, :) !! `contacts` on both sides of the step
+    real(wp), intent(in) :: step                      !! its length
+    real(wp) :: share
+
+    real(wp) :: rise
+    integer :: k
+
+    share = 1.0_wp
+    if (size(after) /= size(before)) return
+    do k = 1, size(before, 2)
+      if (max(before(1, k), after(1, k)) > 0.0_wp) cycle
+      rise = rise_between(before(:2, k), after(:2, k), step)
+      if (max(before(1, k), after(1, k)) + rise*(1.0_wp + rise_error) > unseen_depth* &
+        before(3, k)) share = 0.5_wp
+    end do
+  end function share_before_contact
+
+  !> By how much a cubic is above both its ends: 0 without a maximum between them.
+  pure function rise_between(before, after, step) result(rise)
+    real(wp), intent(in) :: before(2), after(2) !! values and rates at both ends
+    real(wp), intent(in) :: step
+    real(wp) :: rise
+
+    real(wp) :: slope, a, b, c, root, t
+
+    rise = 0.0_wp
+    ! y = y₁ + a t + b t² + c t³ with t from 0 to 1; with rates that rise and then fall.
+    a = before(2)*step
+    if (a <= 0.0_wp .or. after(2) >= 0.0_wp) return
+    slope = after(1) - before(1)
+    b = 3.0_wp*slope - 2.0_wp*a - after(2)*step
+    c = a + after(2)*step - 2.0_wp*slope
+    root = sqrt(max(0.0_wp, b**2 - 3.0_wp*a*c))
+    ! The zero of y' = a + 2 b t + 3 c t² where it falls, without a difference of equals.
+    if (b > 0.0_wp) then
+      t = -(b + root)/(3.0_wp*c)
+    else
+      t = a/(root - b)
+    end if
+    rise = max(0.0_wp, before(1) + t*(a + t*(b + t*c)) - max(before(1), after(1)))
+  end function rise_between
 
   !> One step, of the method that serves here.
   !!

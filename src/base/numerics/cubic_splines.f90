@@ -7,7 +7,7 @@ module cubic_splines
   implicit none (type, external)
   private
 
-  public :: cubic_spline_t, new_cubic_spline, spline_values
+  public :: cubic_spline_t, new_cubic_spline, new_monotone_spline, spline_values
   public :: ends_natural, ends_not_a_knot, ends_at_rest, ends_periodic
 
   !> Conditions at the ends: no second derivative; one cubic over the first two intervals, and over
@@ -18,7 +18,8 @@ module cubic_splines
     logical :: is_periodic = .false.
     real(wp), allocatable :: x(:)    !! (knots) rising
     real(wp), allocatable :: y(:)    !! (knots)
-    real(wp), allocatable :: bend(:) !! (knots) second derivatives
+    real(wp), allocatable :: bend(:)  !! (knots) second derivatives; of a monotone one not allocated
+    real(wp), allocatable :: slope(:) !! (knots) of a monotone one the first derivatives
   end type cubic_spline_t
 
 contains
@@ -48,6 +49,51 @@ contains
       call find_bends(h, y, ends, spline%bend)
     end if
   end function new_cubic_spline
+
+  !> Cubics that are monotone between points, and nowhere beyond both neighbours: without the waves
+  !! of a spline beside a step, but continuous with the first derivative only; Steffen,
+  !! *Astronomy and Astrophysics* 239 (1990), 443. With the slopes s of the chords and p of the
+  !! parabola through three points, that of a point is
+  !! `(sign s₁ + sign s₂) min(|s₁|, |s₂|, ½ |p|)`.
+  pure function new_monotone_spline(x, y) result(spline)
+    real(wp), intent(in) :: x(:) !! (knots) rising, two at least
+    real(wp), intent(in) :: y(:) !! (knots)
+    type(cubic_spline_t) :: spline
+
+    real(wp) :: h(size(x) - 1), s(size(x) - 1), p
+    integer :: i, n
+
+    n = size(x)
+    h = x(2:) - x(:n - 1)
+    s = (y(2:) - y(:n - 1))/h
+    spline%x = x
+    spline%y = y
+    allocate (spline%slope(n))
+    spline%slope([1, n]) = s([1, n - 1])
+    do i = 2, n - 1
+      p = (s(i - 1)*h(i) + s(i)*h(i - 1))/(h(i - 1) + h(i))
+      spline%slope(i) = (sign(1.0_wp, s(i - 1)) + sign(1.0_wp, s(i)))*min(abs(s(i - 1)), &
+        abs(s(i)), 0.5_wp*abs(p))
+    end do
+    if (n == 2) return
+    spline%slope(1) = end_slope(h(1), h(2), s(1), s(2))
+    spline%slope(n) = end_slope(h(n - 1), h(n - 2), s(n - 1), s(n - 2))
+  end function new_monotone_spline
+
+  !> The slope at the end of the parabola through the last three points, within what keeps it
+  !! monotone.
+  pure function end_slope(h, h_next, s, s_next) result(slope)
+    real(wp), intent(in) :: h, h_next !! lengths of the last interval and of that beside it
+    real(wp), intent(in) :: s, s_next !! slopes of their chords
+    real(wp) :: slope
+
+    slope = s + (s - s_next)*h/(h + h_next)
+    if (slope*s <= 0.0_wp) then
+      slope = 0.0_wp
+    else if (abs(slope) > 2.0_wp*abs(s)) then
+      slope = 2.0_wp*s
+    end if
+  end function end_slope
 
   !> Second derivatives m of a spline with ends:
   !! h₁ m₁ + 2 (h₁ + h₂) m₂ + h₂ m₃ = 6 (Δ₂ − Δ₁), with the slopes Δ of the chords.
@@ -178,6 +224,10 @@ contains
 
     at = in_period(spline, x)
     i = interval_of(spline, at)
+    if (allocated(spline%slope)) then
+      values = monotone_values(spline, i, at)
+      return
+    end if
     associate (y => spline%y, m => spline%bend)
       h = spline%x(i + 1) - spline%x(i)
       b = (at - spline%x(i))/h
@@ -188,6 +238,26 @@ contains
       values(2) = a*m(i) + b*m(i + 1)
     end associate
   end function spline_values
+
+  !> The same in an interval of a monotone one, from values and slopes at its ends.
+  pure function monotone_values(spline, i, x) result(values)
+    type(cubic_spline_t), intent(in) :: spline
+    integer, intent(in) :: i !! number of the interval
+    real(wp), intent(in) :: x
+    real(wp) :: values(0:2)
+
+    real(wp) :: h, s, t, c, d
+
+    h = spline%x(i + 1) - spline%x(i)
+    t = x - spline%x(i)
+    associate (y => spline%y, slope => spline%slope)
+      s = (y(i + 1) - y(i))/h
+      c = (3.0_wp*s - 2.0_wp*slope(i) - slope(i + 1))/h
+      d = (slope(i) + slope(i + 1) - 2.0_wp*s)/h**2
+      values = [y(i) + t*(slope(i) + t*(c + t*d)), slope(i) + t*(2.0_wp*c + 3.0_wp*t*d), &
+        2.0_wp*c + 6.0_wp*t*d]
+    end associate
+  end function monotone_values
 
   !> The place in the first period.
   pure function in_period(spline, x) result(at)

@@ -11,6 +11,7 @@ module rate_systems
   contains
     procedure(rates_interface), deferred :: find_rates
     procedure :: switches => no_switches
+    procedure :: contacts => no_contacts
   end type rate_system_t
 
   abstract interface
@@ -40,5 +41,17 @@ contains
 
     allocate (switches(2, 0))
   end function no_switches
+
+  !> Contacts that begin smoothly where a depth becomes positive. What is nothing before may be so
+  !! short that a step would pass over it.
+  function no_contacts(self, state) result(contacts)
+    class(rate_system_t), intent(in) :: self !! the system of equations
+    real(wp), intent(in) :: state(:)         !! (unknowns) y
+    real(wp), allocatable :: contacts(:, :)  !! (3, always as many) depth, its rate, and the width
+                                             !! in which the contact begins; empty: none, or no
+                                             !! rates here
+
+    allocate (contacts(3, 0))
+  end function no_contacts
 
 end module rate_systems

@@ -136,12 +136,15 @@ module card_table
       help="what resists the motion of a link or a pin"), &
     card_kind_t("SPRING", least=3, most=4, pattern="SPRING name end end stiffness= "// &
       "[free_length= | force=], or SPRING name pin link [link] stiffness= [free_angle= | "// &
-          "torque=]", &
-      keys="stiffness free_length force free_angle torque", &
+      "torque=], with [only= gap= damping= contact=]", &
+      keys="stiffness free_length force free_angle torque only gap damping contact", &
       help="a spring between two pins or points, or a torsional one at a pin of links"), &
     card_kind_t("DAMPER", least=3, most=4, pattern="DAMPER name end end damping=, or "// &
       "DAMPER name pin link [link] damping=", keys="damping", &
       help="a viscous damper between two pins or points, or at a pin of links"), &
+    card_kind_t("STOP", least=2, most=3, pattern="STOP name measure limit= stiffness= "// &
+      "[damping=] [contact=] [below]", keys="limit stiffness damping contact", choices="below", &
+      help="what pushes a MEASURE, spring, ram or block back beyond a limit"), &
     card_kind_t("MEASURE", least=3, most=many, &
       pattern="MEASURE name distance|angle|along|across|travel|sum ...", &
       choices="distance angle along across travel sum", &

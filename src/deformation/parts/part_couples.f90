@@ -268,8 +268,8 @@ contains
       do i = 1, size(springs)
         if (.not. springs(i)%turns) cycle
         do k = 1, 2
-          if (elastic%linkage%loads(springs(i)%load)%body(k) == body .and. springs(i)%rotation(k) &
-            == rotation) moment = moment + merge(pull(i), -pull(i), k == 1)
+          if (elastic%linkage%loads(springs(i)%load)%along%at(k)%body == body .and. &
+            springs(i)%rotation(k) == rotation) moment = moment + merge(pull(i), -pull(i), k == 1)
         end do
       end do
     end function moment_of

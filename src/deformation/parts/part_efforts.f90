@@ -1,17 +1,17 @@
 !> Loads of parts beside those that a pose determines: dampers, resistances and loads in one
 !! direction of the motion, friction in a joint, the torque of a motor. All are in the first case.
 module part_efforts
-  use applied_load_types, only: applies_along, applies_couple, applies_force
-  use applied_loads, only: damper_pulls, is_moving, moving_couple, moving_force
+  use applied_load_types, only: applies_couple, applies_force, is_torsional
+  use applied_loads, only: moving_pulls, is_moving, moving_couple, moving_force
   use carried_bodies, only: carried_force
-  use coordinate_types, only: terminal_t
+  use coordinate_types, only: terminal_t, wrench_t
+  use coordinates, only: coordinate_wrenches
   use elastic_linkages, only: add_couple, elastic_linkage_t, spring_pin
   use group_equations, only: line_axis
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: cross, linkage_t
   use load_cases, only: case_count
-  use load_coordinates, only: load_axis
   use part_poses, only: highest_force, part_loads_t
   use poses, only: arm_to_place, pose_t
   implicit none (type, external)
@@ -63,28 +63,29 @@ contains
     type(part_loads_t), intent(inout) :: loads      !! of these parts
 
     real(wp), allocatable :: pull(:)
+    type(wrench_t) :: wrench(2)
     integer :: i, k
 
-    pull = damper_pulls(linkage, pose, now)
+    pull = moving_pulls(linkage, pose, now)
     do i = 1, size(linkage%loads)
       associate (load => linkage%loads(i))
         if (.not. is_moving(load)) cycle
         select case (load%kind)
         case (applies_force)
-          call add_force(elastic, placed, i, load%at(1), moving_force(linkage, pose, now, &
+          call add_force(elastic, placed, i, load%at, moving_force(linkage, pose, now, &
             load), loads)
         case (applies_couple)
-          call add_couple(elastic, load%body(1), moving_couple(linkage, pose, now, load), &
+          call add_couple(elastic, load%at%body, moving_couple(linkage, pose, now, load), &
             loads%unit%of_case(effort_case)%couple)
-        case (applies_along)
-          call add_force(elastic, placed, i, load%at(1), pull(i)*load_axis(linkage, pose, load), &
-            loads)
-          call add_force(elastic, placed, i, load%at(2), -pull(i)*load_axis(linkage, pose, load), &
-            loads)
         case default
+          wrench = coordinate_wrenches(linkage, pose, load%along)
           do k = 1, 2
-            call add_end_couple(elastic, load%body(k), spring_pin(linkage, i), merge(pull(i), &
-              -pull(i), k == 1), loads)
+            if (is_torsional(load)) then
+              call add_end_couple(elastic, wrench(k)%at%body, spring_pin(linkage, i), &
+                -pull(i)*wrench(k)%couple, loads)
+            else
+              call add_force(elastic, placed, i, wrench(k)%at, -pull(i)*wrench(k)%force, loads)
+            end if
           end do
         end select
       end associate

@@ -8,8 +8,8 @@
 !> Pose and loads of the parts of a vibrating linkage, from those of the linkage that moves.
 module part_poses
   use acceleration_fields, only: acceleration_field_t, point_acceleration
-  use applied_load_types, only: applies_between
-  use applied_loads, only: spring_pulls
+  use applied_load_types, only: is_torsional
+  use applied_loads, only: standing_pulls
   use constants, only: degree
   use carried_bodies, only: add_short_pieces, carried_loads
   use elastic_linkages, only: add_couple, elastic_linkage_t, spring_t
@@ -108,7 +108,7 @@ contains
       end associate
     end do
     if (loads%occurs(constant_case)) then
-      associate (pull => spring_pulls(linkage, pose))
+      associate (pull => standing_pulls(linkage, pose))
         of_parts%pull = pull(elastic%springs%load)
         of_parts%tension = pull(elastic%tensions%load)
       end associate
@@ -215,9 +215,9 @@ contains
     couple = of_links%couple
     do i = 1, size(pull)
       associate (load => linkage%loads(springs(i)%load))
-        if (load%kind /= applies_between) cycle
+        if (.not. is_torsional(load)) cycle
         do k = 1, 2
-          b = load%body(k)
+          b = load%along%at(k)%body
           if (b > 0) couple(b) = couple(b) - merge(1.0_wp, -1.0_wp, k == 1)*pull(i)
         end do
       end associate

@@ -144,7 +144,7 @@ contains
       way = spring_way(elastic, pose, springs(i))
       if (norm2(way) > 0.0_wp) way = way/norm2(way)
       do k = 1, 2
-        associate (at => elastic%linkage%loads(springs(i)%load)%at(k))
+        associate (at => elastic%linkage%loads(springs(i)%load)%along%at(k))
           if (at%pin > 0 .or. at%body /= elastic%body(part)) cycle
           n = n + 1
           room(n)%force = merge(tension(i), -tension(i), k == 1)*way

@@ -368,7 +368,7 @@ contains
 
     integer :: part
 
-    associate (at => elastic%linkage%loads(spring%load)%at(k))
+    associate (at => elastic%linkage%loads(spring%load)%along%at(k))
       if (at%pin > 0) then
         place = pose%pin(:, at%pin) + at%place
       else
@@ -393,7 +393,7 @@ contains
 
     do k = 1, 2
       sense = merge(-1.0_wp, 1.0_wp, k == 1)
-      associate (at => elastic%linkage%loads(spring%load)%at(k))
+      associate (at => elastic%linkage%loads(spring%load)%along%at(k))
         if (at%pin > 0) then
           call add_point(numbers, at%pin, sense*a, row)
         else

@@ -1,7 +1,8 @@
 ! src/linkage/coordinates/ - scalar coordinates of a linkage: distances, places on lines, angles.
 ! In: a `coordinate_t` between terminals, a pose, how it moves. Out: its value, rate and
-! acceleration. Begin with `coordinate_t` here, then `coordinate_value` in `coordinates.f90`; a kind
-! has a file of its own, which sees frames and twists of terminals only.
+! acceleration, and what an effort along it puts on its terminals. Begin with `coordinate_t` here,
+! then `coordinate_value` in `coordinates.f90`; a kind has a file of its own, which sees frames and
+! twists of terminals only.
 ! Not here: what acts along a coordinate (`src/linkage/loads`), the equations that hold joints
 ! together (`src/linkage/groups`), their names (`src/mechanism`).
 
@@ -11,7 +12,7 @@ module coordinate_types
   implicit none (type, external)
   private
 
-  public :: terminal_t, frame_t, twist_t, coordinate_t
+  public :: terminal_t, frame_t, twist_t, wrench_t, coordinate_t
   public :: is_distance, is_along, is_across, is_angle, is_sum
 
   !> Kinds: the distance of two places; the place of the second terminal along and across the line
@@ -39,6 +40,14 @@ module coordinate_types
     real(wp) :: velocity(2) !! of its place
     real(wp) :: turn        !! of its direction
   end type twist_t
+
+  !> What an effort of 1 along a coordinate puts on one of its terminals.
+  type :: wrench_t
+    type(terminal_t) :: at
+    real(wp) :: place(2) !! of the terminal, counted as the pins of the pose [m]
+    real(wp) :: force(2) !! there, global axes
+    real(wp) :: couple
+  end type wrench_t
 
   type :: coordinate_t
     integer :: kind = is_distance

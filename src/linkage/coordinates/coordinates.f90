@@ -1,42 +1,49 @@
-!> Values, rates and accelerations of coordinates.
+!> Values, rates and accelerations of coordinates, and what an effort along one puts on its
+!! terminals.
 !!
 !! With kinematic coefficients in place of velocities and accelerations, rates and accelerations are
 !! derivatives with respect to the coordinate of the first drive: s' and s''.
 module coordinates
   use constants, only: degree
   use coordinate_types, only: coordinate_t, frame_t, is_across, is_along, is_angle, is_distance, &
-    is_sum, terminal_t, twist_t
-  use distances, only: distance_acceleration, distance_rate, distance_value
+    is_sum, terminal_t, twist_t, wrench_t
+  use distances, only: distance_acceleration, distance_axis, distance_rate, distance_value
   use group_equations, only: drive_value
   use kinds, only: wp
-  use lines, only: line_acceleration, line_rate, line_value
-  use linkages, only: cross, linkage_t
+  use lines, only: line_acceleration, line_axis, line_couple, line_rate, line_value
+  use linkages, only: cross, drive_of_angle, linkage_t
   use pose_types, only: kinematic_coefficients_t, pose_t
-  use terminals, only: terminal_acceleration, terminal_frame, terminal_twist
+  use terminals, only: frames_of, terminal_acceleration, twists_of
   implicit none (type, external)
   private
 
-  public :: coordinate_value, coordinate_rate, coordinate_acceleration, slider_coordinate
+  public :: coordinate_value, coordinate_rate, coordinate_acceleration, coordinate_wrenches, &
+    terms_in, slider_coordinate, is_turning
 
 contains
 
   !> Its value [m] or [rad].
-  pure function coordinate_value(linkage, pose, coordinate) result(value)
+  pure function coordinate_value(linkage, pose, coordinate, crank) result(value)
     type(linkage_t), intent(in) :: linkage !! its bodies, and the terms of a sum
     type(pose_t), intent(in) :: pose       !! positions and directions
     type(coordinate_t), intent(in) :: coordinate
+    real(wp), intent(in), optional :: crank !! coordinate of the first drive, where several have
+                                           !! one pose; absent: that of the pose [deg] or [m]
     real(wp) :: value
 
+    real(wp) :: at
     integer :: i
 
+    at = pose%crank
+    if (present(crank)) at = crank
     if (coordinate%kind /= is_sum) then
-      value = simple_value(linkage, pose, coordinate)
+      value = simple_value(linkage, pose, coordinate, at)
       return
     end if
     value = 0.0_wp
     do i = 1, size(coordinate%term)
       value = value + coordinate%weight(i)*simple_value(linkage, pose, &
-        linkage%coordinates(coordinate%term(i)))
+        linkage%coordinates(coordinate%term(i)), at)
     end do
   end function coordinate_value
 
@@ -48,17 +55,7 @@ contains
     type(coordinate_t), intent(in) :: coordinate
     real(wp) :: rate
 
-    integer :: i
-
-    if (coordinate%kind /= is_sum) then
-      rate = simple_rate(linkage, pose, motion, coordinate)
-      return
-    end if
-    rate = 0.0_wp
-    do i = 1, size(coordinate%term)
-      rate = rate + coordinate%weight(i)*simple_rate(linkage, pose, motion, &
-        linkage%coordinates(coordinate%term(i)))
-    end do
+    rate = derivative(1, linkage, pose, motion, coordinate)
   end function coordinate_rate
 
   !> Its acceleration [m/s²] or [rad/s²].
@@ -69,18 +66,50 @@ contains
     type(coordinate_t), intent(in) :: coordinate
     real(wp) :: acceleration
 
-    integer :: i
+    acceleration = derivative(2, linkage, pose, motion, coordinate)
+  end function coordinate_acceleration
+
+  !> What an effort of 1 along a coordinate puts on its terminals: the virtual work of these is its
+  !! change.
+  pure function coordinate_wrenches(linkage, pose, coordinate) result(wrench)
+    type(linkage_t), intent(in) :: linkage !! as for `coordinate_value`
+    type(pose_t), intent(in) :: pose       !! positions and directions
+    type(coordinate_t), intent(in) :: coordinate
+    type(wrench_t) :: wrench(2*terms_in(coordinate))
+
+    integer :: i, k
 
     if (coordinate%kind /= is_sum) then
-      acceleration = simple_acceleration(linkage, pose, motion, coordinate)
+      wrench = simple_wrenches(linkage, pose, coordinate)
       return
     end if
-    acceleration = 0.0_wp
     do i = 1, size(coordinate%term)
-      acceleration = acceleration + coordinate%weight(i)*simple_acceleration(linkage, pose, &
-        motion, linkage%coordinates(coordinate%term(i)))
+      wrench(2*i - 1:2*i) = simple_wrenches(linkage, pose, linkage%coordinates(coordinate%term(i)))
+      do k = 2*i - 1, 2*i
+        wrench(k)%force = coordinate%weight(i)*wrench(k)%force
+        wrench(k)%couple = coordinate%weight(i)*wrench(k)%couple
+      end do
     end do
-  end function coordinate_acceleration
+  end function coordinate_wrenches
+
+  !> How many a sum adds; 1 of one that is no sum.
+  pure function terms_in(coordinate) result(number)
+    type(coordinate_t), intent(in) :: coordinate
+    integer :: number
+
+    number = 1
+    if (coordinate%kind == is_sum) number = size(coordinate%term)
+  end function terms_in
+
+  !> Whether it is an angle, not a length.
+  pure function is_turning(linkage, coordinate) result(is)
+    type(linkage_t), intent(in) :: linkage !! the terms of a sum
+    type(coordinate_t), intent(in) :: coordinate
+    logical :: is
+
+    is = coordinate%kind == is_angle
+    if (coordinate%kind == is_sum) is = linkage%coordinates(coordinate%term(1))%kind == is_angle
+  end function is_turning
 
   !> The place of the pin of a slider along its line.
   pure function slider_coordinate(linkage, number) result(coordinate)
@@ -97,21 +126,22 @@ contains
   end function slider_coordinate
 
   !> The value of one that is no sum.
-  pure function simple_value(linkage, pose, coordinate) result(value)
+  pure function simple_value(linkage, pose, coordinate, crank) result(value)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(coordinate_t), intent(in) :: coordinate
+    real(wp), intent(in) :: crank !! of the first drive [deg] or [m]
     real(wp) :: value
 
     type(frame_t) :: frame(2)
 
     value = 0.0_wp
     if (coordinate%drive > 0) then
-      value = drive_value(linkage%drives(coordinate%drive), pose%crank)
-      if (coordinate%kind == is_angle) value = value*degree
+      value = drive_value(linkage%drives(coordinate%drive), crank)
+      if (linkage%drives(coordinate%drive)%kind == drive_of_angle) value = value*degree
       return
     end if
-    frame = frames_of(linkage, pose, coordinate)
+    frame = frames_of(linkage, pose, coordinate%at)
     select case (coordinate%kind)
     case (is_distance)
       value = distance_value(frame)
@@ -124,6 +154,45 @@ contains
     end select
   end function simple_value
 
+  !> The rate or the acceleration.
+  pure function derivative(order, linkage, pose, motion, coordinate) result(slope)
+    integer, intent(in) :: order !! 1: the rate, 2: the acceleration
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: motion
+    type(coordinate_t), intent(in) :: coordinate
+    real(wp) :: slope
+
+    integer :: i
+
+    if (coordinate%kind /= is_sum) then
+      slope = simple_derivative(order, linkage, pose, motion, coordinate)
+      return
+    end if
+    slope = 0.0_wp
+    do i = 1, size(coordinate%term)
+      slope = slope + coordinate%weight(i)*simple_derivative(order, linkage, pose, motion, &
+        linkage%coordinates(coordinate%term(i)))
+    end do
+  end function derivative
+
+  !> The same of one that is no sum.
+  pure function simple_derivative(order, linkage, pose, motion, coordinate) result(slope)
+    integer, intent(in) :: order
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: motion
+    type(coordinate_t), intent(in) :: coordinate
+    real(wp) :: slope
+
+    slope = 0.0_wp
+    if (order == 1) then
+      slope = simple_rate(linkage, pose, motion, coordinate)
+    else
+      slope = simple_acceleration(linkage, pose, motion, coordinate)
+    end if
+  end function simple_derivative
+
   !> The rate of one that is no sum.
   pure function simple_rate(linkage, pose, motion, coordinate) result(rate)
     type(linkage_t), intent(in) :: linkage
@@ -135,12 +204,13 @@ contains
     type(twist_t) :: twist(2)
 
     rate = 0.0_wp
-    twist = twists_of(linkage, pose, motion, coordinate)
+    twist = twists_of(linkage, pose, motion, coordinate%at)
     select case (coordinate%kind)
     case (is_distance)
-      rate = distance_rate(frames_of(linkage, pose, coordinate), twist)
+      rate = distance_rate(frames_of(linkage, pose, coordinate%at), twist)
     case (is_along, is_across)
-      rate = line_rate(frames_of(linkage, pose, coordinate), twist, coordinate%kind == is_across)
+      rate = line_rate(frames_of(linkage, pose, coordinate%at), twist, &
+        coordinate%kind == is_across)
     case (is_angle)
       rate = twist(2)%turn - twist(1)%turn
     end select
@@ -154,50 +224,54 @@ contains
     type(coordinate_t), intent(in) :: coordinate
     real(wp) :: acceleration
 
+    type(frame_t) :: frame(2)
     type(twist_t) :: twist(2), slope(2)
     integer :: k
 
     acceleration = 0.0_wp
-    twist = twists_of(linkage, pose, motion, coordinate)
+    frame = frames_of(linkage, pose, coordinate%at)
+    twist = twists_of(linkage, pose, motion, coordinate%at)
     do k = 1, 2
       slope(k) = terminal_acceleration(linkage, pose, motion, coordinate%at(k))
     end do
     select case (coordinate%kind)
     case (is_distance)
-      acceleration = distance_acceleration(frames_of(linkage, pose, coordinate), twist, slope)
+      acceleration = distance_acceleration(frame, twist, slope)
     case (is_along, is_across)
-      acceleration = line_acceleration(frames_of(linkage, pose, coordinate), twist, slope, &
-        coordinate%kind == is_across)
+      acceleration = line_acceleration(frame, twist, slope, coordinate%kind == is_across)
     case (is_angle)
       acceleration = slope(2)%turn - slope(1)%turn
     end select
   end function simple_acceleration
 
-  pure function frames_of(linkage, pose, coordinate) result(frame)
+  !> What an effort of 1 along one that is no sum puts on its terminals.
+  pure function simple_wrenches(linkage, pose, coordinate) result(wrench)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(coordinate_t), intent(in) :: coordinate
+    type(wrench_t) :: wrench(2)
+
     type(frame_t) :: frame(2)
-
     integer :: k
 
+    frame = frames_of(linkage, pose, coordinate%at)
     do k = 1, 2
-      frame(k) = terminal_frame(linkage, pose, coordinate%at(k))
+      wrench(k)%at = coordinate%at(k)
+      wrench(k)%place = frame(k)%place
+      wrench(k)%force = 0.0_wp
+      wrench(k)%couple = 0.0_wp
     end do
-  end function frames_of
-
-  pure function twists_of(linkage, pose, motion, coordinate) result(twist)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: motion
-    type(coordinate_t), intent(in) :: coordinate
-    type(twist_t) :: twist(2)
-
-    integer :: k
-
-    do k = 1, 2
-      twist(k) = terminal_twist(linkage, pose, motion, coordinate%at(k))
-    end do
-  end function twists_of
+    select case (coordinate%kind)
+    case (is_distance)
+      wrench(2)%force = distance_axis(frame)
+    case (is_along, is_across)
+      wrench(2)%force = line_axis(frame, coordinate%kind == is_across)
+      wrench(1)%couple = line_couple(frame, coordinate%kind == is_across)
+    case (is_angle)
+      wrench(2)%couple = 1.0_wp
+      wrench(1)%couple = -1.0_wp
+    end select
+    wrench(1)%force = -wrench(2)%force
+  end function simple_wrenches
 
 end module coordinates

@@ -7,7 +7,7 @@ module lines
   implicit none (type, external)
   private
 
-  public :: line_value, line_rate, line_acceleration
+  public :: line_value, line_axis, line_couple, line_rate, line_acceleration
 
 contains
 
@@ -16,17 +16,27 @@ contains
     logical, intent(in) :: is_across !! to the left of the line; else along it
     real(wp) :: value                !! [m]
 
-    value = dot_product(axis_of(frame, is_across), frame(2)%place - frame(1)%place)
+    value = dot_product(line_axis(frame, is_across), frame(2)%place - frame(1)%place)
   end function line_value
 
-  pure function axis_of(frame, is_across) result(axis)
+  !> e, the force that an effort of 1 puts on the second terminal, and −e on the first.
+  pure function line_axis(frame, is_across) result(axis)
     type(frame_t), intent(in) :: frame(2)
     logical, intent(in) :: is_across
     real(wp) :: axis(2)
 
     axis = frame(1)%direction
     if (is_across) axis = normal_to(axis)
-  end function axis_of
+  end function line_axis
+
+  !> n·(P₂ − P₁), the couple that an effort of 1 puts on the first terminal besides.
+  pure function line_couple(frame, is_across) result(couple)
+    type(frame_t), intent(in) :: frame(2)
+    logical, intent(in) :: is_across
+    real(wp) :: couple
+
+    couple = dot_product(normal_to(line_axis(frame, is_across)), frame(2)%place - frame(1)%place)
+  end function line_couple
 
   !> e·(v₂ − v₁) + ω n·(P₂ − P₁), for e turns with n ω.
   pure function line_rate(frame, twist, is_across) result(rate)
@@ -37,7 +47,7 @@ contains
 
     real(wp) :: axis(2)
 
-    axis = axis_of(frame, is_across)
+    axis = line_axis(frame, is_across)
     rate = dot_product(axis, twist(2)%velocity - twist(1)%velocity) + &
       twist(1)%turn*dot_product(normal_to(axis), frame(2)%place - frame(1)%place)
   end function line_rate
@@ -51,7 +61,7 @@ contains
 
     real(wp) :: axis(2), normal(2), way(2)
 
-    axis = axis_of(frame, is_across)
+    axis = line_axis(frame, is_across)
     normal = normal_to(axis)
     way = frame(2)%place - frame(1)%place
     associate (turn => twist(1)%turn)

@@ -7,21 +7,26 @@ module terminals
   implicit none (type, external)
   private
 
-  public :: terminal_place, terminal_velocity, terminal_frame, terminal_twist, terminal_acceleration
+  public :: terminal_place, terminal_velocity, terminal_acceleration, frames_of, twists_of, is_fixed
 
 contains
 
-  !> Place and direction of a terminal.
-  pure function terminal_frame(linkage, pose, at) result(frame)
+  !> Places and directions of two terminals.
+  pure function frames_of(linkage, pose, at) result(frame)
     type(linkage_t), intent(in) :: linkage !! first pins of its bodies
     type(pose_t), intent(in) :: pose       !! positions and directions
-    type(terminal_t), intent(in) :: at
-    type(frame_t) :: frame
+    type(terminal_t), intent(in) :: at(2)
+    type(frame_t) :: frame(2)
 
-    frame%place = terminal_place(linkage, pose, at)
-    frame%direction = at%direction
-    if (at%body > 0) frame%direction = turned(at%direction, pose%direction(:, at%body))
-  end function terminal_frame
+    integer :: k
+
+    do k = 1, 2
+      frame(k)%place = terminal_place(linkage, pose, at(k))
+      frame(k)%direction = at(k)%direction
+      if (at(k)%body > 0) frame(k)%direction = turned(at(k)%direction, &
+        pose%direction(:, at(k)%body))
+    end do
+  end function frames_of
 
   !> Where a terminal is, counted as the pins of the pose [m].
   pure function terminal_place(linkage, pose, at) result(place)
@@ -58,18 +63,22 @@ contains
     end if
   end function terminal_velocity
 
-  !> Velocities of a terminal.
-  pure function terminal_twist(linkage, pose, motion, at) result(twist)
+  !> Velocities of two terminals.
+  pure function twists_of(linkage, pose, motion, at) result(twist)
     type(linkage_t), intent(in) :: linkage !! first pins of its bodies
     type(pose_t), intent(in) :: pose       !! directions of its bodies
     type(kinematic_coefficients_t), intent(in) :: motion !! velocities of pins and bodies
-    type(terminal_t), intent(in) :: at
-    type(twist_t) :: twist
+    type(terminal_t), intent(in) :: at(2)
+    type(twist_t) :: twist(2)
 
-    twist%velocity = terminal_velocity(linkage, pose, motion, at)
-    twist%turn = 0.0_wp
-    if (at%body > 0) twist%turn = motion%turn(at%body)
-  end function terminal_twist
+    integer :: k
+
+    do k = 1, 2
+      twist(k)%velocity = terminal_velocity(linkage, pose, motion, at(k))
+      twist(k)%turn = 0.0_wp
+      if (at(k)%body > 0) twist(k)%turn = motion%turn(at(k)%body)
+    end do
+  end function twists_of
 
   !> Accelerations of a terminal: x'' = x_first'' + h' n − h² r.
   pure function terminal_acceleration(linkage, pose, motion, at) result(slope)
@@ -91,5 +100,15 @@ contains
       slope%velocity = motion%pin_slope(:, at%pin)
     end if
   end function terminal_acceleration
+
+  !> Whether a terminal is on the ground.
+  pure function is_fixed(linkage, at) result(is)
+    type(linkage_t), intent(in) :: linkage !! its ground pivots
+    type(terminal_t), intent(in) :: at
+    logical :: is
+
+    is = at%body == 0
+    if (is .and. at%pin > 0) is = linkage%is_ground(at%pin)
+  end function is_fixed
 
 end module terminals

@@ -26,6 +26,7 @@ module linkage_motions
     stop_steps
   use linkage_samples, only: find_details, linkage_details_t, linkage_sample_t, sample_state
   use linkages, only: drive_of_angle, linkage_t, reference_point
+  use load_tables, only: next_row
   use loop_curves, only: change_point_message, choose_branch, curve_point_t, find_point, &
     find_start, new_loop_curve, place_from_crossing, project, reduce
   use loop_poses, only: has_loop
@@ -328,7 +329,8 @@ contains
       motion%system%stop = no_stop
       before = motion%state
       time_before = motion%time
-      call advance(motion%integrator, motion%system, motion%time, time, motion%state, error)
+      call advance(motion%integrator, motion%system, motion%time, &
+        next_row(motion%system%whole%linkage, motion%time, time), motion%state, error)
       if (allocated(error)) then
         motion%stop = merge(motion%system%stop, stop_steps, motion%system%stop /= no_stop)
         if (motion%stop == stop_at_end) motion%left = motion%system%left

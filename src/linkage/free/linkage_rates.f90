@@ -11,6 +11,7 @@ module linkage_rates
   use adaptive_integration, only: rate_system_t
   use block_ends, only: refuse_leaving_block
   use constants, only: degree, two_pi
+  use coordinates, only: coordinate_rate
   use dense_factor, only: dense_factor_t, factorize, solve
   use drives, only: drive_t, refuse_speed
   use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
@@ -29,6 +30,7 @@ module linkage_rates
   use motion_switches, only: has_switches, switches_at
   use pose_types, only: count_from, pose_t
   use poses, only: dead_point_sine, place_groups, place_links
+  use pulls, only: deflection
   use rigid_bodies, only: rigid_body_t
   use whole_systems, only: drive_acceleration, drive_position, drive_row, rate_along, whole_system_t
   implicit none (type, external)
@@ -87,6 +89,7 @@ module linkage_rates
   contains
     procedure :: find_rates => rates_of_motion
     procedure :: switches => switches_of_motion
+    procedure :: contacts => contacts_of_motion
   end type moving_linkage_t
 
 contains
@@ -102,7 +105,7 @@ contains
   end function free_drives
 
   !> Pose, velocities per rate of coordinate, velocities and accelerations without ü at a state.
-  subroutine find_state(self, state, pose, per, now, found, left, is_crossing)
+  subroutine find_state(self, state, pose, per, now, found, left, is_crossing, time)
     class(moving_linkage_t), intent(in) :: self
     real(wp), intent(in) :: state(:)    !! coordinates, rates, work
     type(pose_t), intent(inout) :: pose !! new, or of another state; pins from `reference_point`
@@ -112,6 +115,7 @@ contains
     type(error_t), allocatable, intent(out), optional :: left !! else the block that leaves its
                                                               !! link, or the table that ends
     logical, intent(out), optional :: is_crossing !! a loop is at a change point
+    real(wp), intent(in), optional :: time !! of the pose, where loads are wanted [s]
 
     type(dense_factor_t) :: factor
     type(error_t), allocatable :: error
@@ -128,8 +132,7 @@ contains
       if (.not. allocated(per)) allocate (per(1))
       call place_on_curve(self%whole%linkage, self%loop%four_bar, point, state(1) + &
         two_pi*self%turns(1), state(4), pose, per(1), now)
-      if (size(self%whole%linkage%loads) > 0) call refuse_beyond_tables(self%whole%linkage, pose, &
-        error)
+      call refuse_loads(self%whole%linkage, pose, error, time)
       found = .not. allocated(error)
       if (present(left)) call move_alloc(error, left)
       return
@@ -141,7 +144,7 @@ contains
       if (.not. found) return
       pose%crank = drive_position(self%whole, pose, 1, self%chart%crank)
       call refuse_leaving_block(self%whole%linkage, pose, error)
-      if (.not. allocated(error)) call refuse_beyond_tables(self%whole%linkage, pose, error)
+      if (.not. allocated(error)) call refuse_loads(self%whole%linkage, pose, error, time)
       found = .not. allocated(error)
       if (present(left)) call move_alloc(error, left)
       if (.not. found) return
@@ -158,7 +161,7 @@ contains
     pose%crank = state(1)
     if (self%whole%linkage%drives(1)%kind == drive_of_angle) pose%crank = state(1)/degree + &
       self%turned
-    call refuse_beyond_tables(self%whole%linkage, pose, error)
+    call refuse_loads(self%whole%linkage, pose, error, time)
     found = .not. allocated(error)
     if (present(left) .and. .not. found) call move_alloc(error, left)
     if (.not. found) return
@@ -171,6 +174,18 @@ contains
       call find_velocities(self%whole%linkage, pose, rates_of_drives(self, direction), per(k))
     end do
   end subroutine find_state
+
+  !> Refuses a pose where loads end; the pose gets its time.
+  pure subroutine refuse_loads(linkage, pose, error, time)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(inout) :: pose
+    type(error_t), allocatable, intent(inout) :: error
+    real(wp), intent(in), optional :: time !! [s]
+
+    pose%has_time = present(time)
+    if (present(time)) pose%time = time
+    if (size(linkage%loads) > 0) call refuse_beyond_tables(linkage, pose, error)
+  end subroutine refuse_loads
 
   !> The pose at coordinates of the free drives.
   !!
@@ -324,6 +339,39 @@ contains
       rate_of_drive(self, pose, now, 1))
   end function switches_of_motion
 
+  !> How deep stops and springs of one side are pressed.
+  function contacts_of_motion(self, state) result(contacts)
+    class(moving_linkage_t), intent(in) :: self
+    real(wp), intent(in) :: state(:)        !! coordinates, rates, work
+    real(wp), allocatable :: contacts(:, :) !! (3, contacts) depth, its rate, width; empty: none, or
+                                            !! no position
+
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t), allocatable :: per(:)
+    type(kinematic_coefficients_t) :: now
+    logical :: found
+    integer :: i, n
+
+    n = 0
+    associate (linkage => self%whole%linkage)
+      if (any(linkage%loads%side /= 0)) then
+        call find_state(self, state, pose, per, now, found)
+        if (found) n = count(linkage%loads%side /= 0)
+      end if
+      allocate (contacts(3, n))
+      if (n == 0) return
+      n = 0
+      do i = 1, size(linkage%loads)
+        associate (load => linkage%loads(i))
+          if (load%side == 0) cycle
+          n = n + 1
+          contacts(:, n) = [load%side*deflection(linkage, pose, load), &
+            load%side*coordinate_rate(linkage, pose, now, load%along), load%contact]
+        end associate
+      end do
+    end associate
+  end function contacts_of_motion
+
   !> The motion at a state: ü, motor, gear and loads.
   subroutine find_instant(self, time, state, instant, found)
     class(moving_linkage_t), intent(inout) :: self
@@ -334,7 +382,7 @@ contains
 
     real(wp) :: torque
 
-    call move_to_state(self, state, instant, found)
+    call move_to_state(self, time, state, instant, found)
     if (.not. found) return
     call make_room(instant, size(self%free), size(self%rigid))
     call find_first_drive(self, time, state, instant, found)
@@ -352,9 +400,9 @@ contains
   end subroutine find_instant
 
   !> Pose and velocities of a state; `stop` says why there are none.
-  subroutine move_to_state(self, state, instant, found)
+  subroutine move_to_state(self, time, state, instant, found)
     class(moving_linkage_t), intent(inout) :: self
-    real(wp), intent(in) :: state(:)
+    real(wp), intent(in) :: time, state(:)
     type(linkage_instant_t), intent(inout) :: instant
     logical, intent(out) :: found
 
@@ -368,7 +416,7 @@ contains
       return
     end if
     call find_state(self, state, instant%pose, instant%per, instant%motion, found, left, &
-      is_crossing)
+      is_crossing, time)
     if (found) return
     self%stop = merge(stop_at_end, stop_steps, allocated(left))
     if (is_crossing) self%stop = stop_change_point

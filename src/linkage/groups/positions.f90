@@ -17,6 +17,7 @@ module positions
   !> The linkage at one crank angle.
   type :: state_t
     real(wp) :: crank = 0.0_wp          !! crank angle [deg]
+    real(wp), allocatable :: time       !! of an instant; else not allocated [s]
     type(pose_t), allocatable :: pose   !! incomplete if out of reach
     type(kinematic_coefficients_t), allocatable :: coefficients !! undefined after an error
     type(error_t), allocatable :: error !! why the links cannot be moved here
@@ -57,16 +58,17 @@ contains
     real(wp), intent(in) :: crank(:)            !! (positions) crank angles [deg]
     type(positions_t), intent(out) :: positions !! with states yet to be found
     real(wp), intent(in), optional :: period    !! of the linkage [deg]; 0: none; absent: a turn
-    logical, intent(in), optional :: instants   !! each is a state of its own, for the speed differs
-                                                !! from one to the other; absent: no
+    real(wp), intent(in), optional :: instants(:) !! (positions) each is a state of its own, for the
+                                                !! speed differs from one to the other; none: they
+                                                !! are not [s]
 
     logical :: is_apart
 
     if (present(period)) positions%period = period
     is_apart = .false.
-    if (present(instants)) is_apart = instants
+    if (present(instants)) is_apart = size(instants) > 0
     call list_block(crank, find_first_alike(crank, positions%period, is_apart), 0, size(crank), &
-      positions)
+      positions, instants)
   end subroutine list_positions
 
   !> For every position of a list the first one with the same crank angle, which may be itself.
@@ -90,11 +92,12 @@ contains
   end function find_first_alike
 
   !> The different angles of a block of a list, without poses.
-  pure subroutine list_block(crank, first_alike, before, last, positions)
+  pure subroutine list_block(crank, first_alike, before, last, positions, instants)
     real(wp), intent(in) :: crank(:)      !! (positions) all of the list [deg]
     integer, intent(in) :: first_alike(:) !! (positions) by `find_first_alike`
     integer, intent(in) :: before, last   !! positions before the block, number of its last one
     type(positions_t), intent(inout) :: positions !! new; on return with states yet to be found
+    real(wp), intent(in), optional :: instants(:) !! as of `list_positions`
 
     integer :: i, states
 
@@ -115,6 +118,10 @@ contains
     do i = 1, size(positions%state)
       positions%states(positions%state(i))%crank = crank(first_alike(before + i))
     end do
+    if (.not. present(instants)) return
+    do i = 1, merge(states, 0, size(instants) > 0)
+      positions%states(i)%time = instants(before + i)
+    end do
   end subroutine list_block
 
   !> Pose and kinematic coefficients at the crank angle of a state.
@@ -122,10 +129,12 @@ contains
   !! Errors, left in the state: those of `find_moving_pose`; a position beyond the ends of a table.
   pure subroutine find_state(linkage, state)
     type(linkage_t), intent(in) :: linkage !! lengths, pins and dyads
-    type(state_t), intent(inout) :: state  !! with its crank angle
+    type(state_t), intent(inout) :: state  !! with its crank angle, and the time of an instant
 
     allocate (state%pose, state%coefficients)
     call find_moving_pose(linkage, state%crank, state%pose, state%error)
+    state%pose%has_time = allocated(state%time)
+    if (allocated(state%time)) state%pose%time = state%time
     if (.not. allocated(state%error)) call refuse_beyond_tables(linkage, state%pose, state%error)
     if (.not. allocated(state%error)) state%coefficients = &
       find_kinematic_coefficients(linkage, state%pose)

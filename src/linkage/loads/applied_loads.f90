@@ -1,25 +1,26 @@
 !> What springs, dampers and processes put on a linkage at a pose, in three parts: with a potential
 !! energy; without one, but determined by the pose; and what depends on how fast the linkage moves.
 module applied_loads
-  use applied_load_types, only: acts_always, applied_load_t, applies_along, applies_between, &
-    applies_couple, applies_force, over_nothing
-  use coordinate_types, only: terminal_t
+  use applied_load_types, only: acts_always, applied_load_t, applies_along, applies_couple, &
+    applies_force, over_nothing
+  use coordinate_types, only: coordinate_t, terminal_t, wrench_t
+  use coordinates, only: coordinate_rate, coordinate_wrenches, terms_in
   use inertia_loads, only: load_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: cross, forced_place_t, linkage_t, turned
-  use load_coordinates, only: load_axis, load_deflection, load_rate
   use load_tables, only: table_factor
   use pose_types, only: pose_t
   use poses, only: arm_to_place
+  use pulls, only: moving_pull, pull_energy, pull_scale, standing_pull
   use terminals, only: terminal_place, terminal_velocity
   implicit none (type, external)
   private
 
   public :: add_conservative_loads, add_prescribed_loads, add_standing_loads, add_moving_loads, &
     is_moving, moving_force, moving_couple, forced_places, forces_at_places, &
-    applied_potential, generalised_force, has_standing_loads, has_moving_loads, spring_pull, &
-    spring_pulls, damper_pull, damper_pulls, spring_scale, load_switches, turns_over
+    applied_potential, generalised_force, has_standing_loads, has_moving_loads, &
+    standing_pulls, moving_pulls, spring_scale, load_switches, turns_over
 
 contains
 
@@ -57,7 +58,7 @@ contains
     logical :: is
 
     select case (load%kind)
-    case (applies_along, applies_between)
+    case (applies_along)
       is = abs(load%stiffness) > 0.0_wp .or. abs(load%tension) > 0.0_wp
     case (applies_force)
       is = .not. load%is_carried .and. load%over == over_nothing .and. &
@@ -103,9 +104,10 @@ contains
       associate (load => linkage%loads(i))
         if (.not. is_conservative(load)) cycle
         if (load%kind == applies_force) then
-          call add_force(pose, load%at(1), load%force, body_load, pin_load)
+          call add_force(pose, load%at, load%force, body_load, pin_load)
         else
-          call add_pull(linkage, pose, load, spring_pull(linkage, pose, load), body_load, pin_load)
+          call add_effort(linkage, pose, load%along, -standing_pull(linkage, pose, load), &
+            body_load, pin_load)
         end if
       end associate
     end do
@@ -124,10 +126,10 @@ contains
       associate (load => linkage%loads(i))
         if (.not. is_prescribed(load)) cycle
         if (load%kind == applies_force) then
-          call add_force(pose, load%at(1), table_factor(linkage, pose, load)* &
-            force_of(pose, load), body_load, pin_load)
+          call add_force(pose, load%at, table_factor(linkage, pose, load)*force_of(pose, load), &
+            body_load, pin_load)
         else
-          body_load(load%body(1))%moment = body_load(load%body(1))%moment + &
+          body_load(load%at%body)%moment = body_load(load%at%body)%moment + &
             table_factor(linkage, pose, load)*load%couple
         end if
       end associate
@@ -159,7 +161,7 @@ contains
     if (present(with_moving)) acts = acts .or. with_moving .and. loads%kind == applies_force .and. &
       is_moving(loads)
     do i = 1, size(loads)
-      acts(i) = acts(i) .and. loads(i)%at(1)%pin == 0 .and. loads(i)%at(1)%body == body
+      acts(i) = acts(i) .and. loads(i)%at%pin == 0 .and. loads(i)%at%body == body
     end do
     allocate (places(count(acts)))
     n = 0
@@ -167,7 +169,7 @@ contains
       if (.not. acts(i)) cycle
       n = n + 1
       places(n)%load = i
-      places(n)%place = loads(i)%at(1)%place
+      places(n)%place = loads(i)%at%place
     end do
   end function forced_places
 
@@ -209,14 +211,13 @@ contains
         if (.not. is_moving(load)) cycle
         select case (load%kind)
         case (applies_force)
-          call add_force(pose, load%at(1), moving_force(linkage, pose, now, load), body_load, &
-            pin_load)
+          call add_force(pose, load%at, moving_force(linkage, pose, now, load), body_load, pin_load)
         case (applies_couple)
-          body_load(load%body(1))%moment = body_load(load%body(1))%moment + &
+          body_load(load%at%body)%moment = body_load(load%at%body)%moment + &
             moving_couple(linkage, pose, now, load)
         case default
-          call add_pull(linkage, pose, load, damper_pull(load, load_rate(linkage, pose, now, &
-            load)), body_load, pin_load)
+          call add_effort(linkage, pose, load%along, -moving_pull(linkage, pose, &
+            coordinate_rate(linkage, pose, now, load%along), load), body_load, pin_load)
         end select
       end associate
     end do
@@ -233,7 +234,7 @@ contains
 
     real(wp) :: velocity(2), speed
 
-    velocity = terminal_velocity(linkage, pose, now, load%at(1))
+    velocity = terminal_velocity(linkage, pose, now, load%at)
     speed = norm2(velocity)
     force = -load%damping*velocity
     if (speed > 0.0_wp) force = force - resistance(load, speed)/speed*velocity
@@ -251,14 +252,15 @@ contains
 
     real(wp) :: speed
 
-    speed = now%turn(load%body(1))
+    speed = now%turn(load%at%body)
     couple = -load%damping*speed - resistance(load, speed)
     if (load%during /= acts_always) couple = couple + share_of(load, [speed, 0.0_wp], &
       [load%couple, 0.0_wp])*table_factor(linkage, pose, load)*load%couple
   end function moving_couple
 
-  !> How springs pull, or turn bodies back; 0 of all other loads [N] or [N m].
-  pure function spring_pulls(linkage, pose) result(pull)
+  !> What the position determines of the pulls of springs and stops; 0 of all other loads [N] or
+  !! [N m].
+  pure function standing_pulls(linkage, pose) result(pull)
     type(linkage_t), intent(in) :: linkage !! its loads
     type(pose_t), intent(in) :: pose       !! positions and directions
     real(wp), allocatable :: pull(:)       !! (loads)
@@ -268,14 +270,15 @@ contains
     allocate (pull(load_count(linkage)), source=0.0_wp)
     do i = 1, size(pull)
       associate (load => linkage%loads(i))
-        if (is_conservative(load) .and. load%kind /= applies_force) pull(i) = &
-          spring_pull(linkage, pose, load)
+        if (is_conservative(load) .and. load%kind == applies_along) pull(i) = &
+          standing_pull(linkage, pose, load)
       end associate
     end do
-  end function spring_pulls
+  end function standing_pulls
 
-  !> How dampers pull, or turn bodies back; 0 of all other loads [N] or [N m].
-  pure function damper_pulls(linkage, pose, now) result(pull)
+  !> What the rates of springs, dampers and stops add to their pulls; 0 of all other loads [N] or
+  !! [N m].
+  pure function moving_pulls(linkage, pose, now) result(pull)
     type(linkage_t), intent(in) :: linkage !! its loads
     type(pose_t), intent(in) :: pose       !! positions and directions
     type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
@@ -286,11 +289,11 @@ contains
     allocate (pull(load_count(linkage)), source=0.0_wp)
     do i = 1, size(pull)
       associate (load => linkage%loads(i))
-        if (is_moving(load) .and. any(load%kind == [applies_along, applies_between])) pull(i) = &
-          damper_pull(load, load_rate(linkage, pose, now, load))
+        if (is_moving(load) .and. load%kind == applies_along) pull(i) = moving_pull(linkage, &
+          pose, coordinate_rate(linkage, pose, now, load%along), load)
       end associate
     end do
-  end function damper_pulls
+  end function moving_pulls
 
   pure function load_count(linkage) result(number)
     type(linkage_t), intent(in) :: linkage
@@ -300,25 +303,6 @@ contains
     if (allocated(linkage%loads)) number = size(linkage%loads)
   end function load_count
 
-  !> How a spring pulls, or turns bodies back [N] or [N m].
-  pure function spring_pull(linkage, pose, load) result(pull)
-    type(linkage_t), intent(in) :: linkage   !! of this load
-    type(pose_t), intent(in) :: pose         !! positions and directions
-    type(applied_load_t), intent(in) :: load !! along a line or between two bodies
-    real(wp) :: pull
-
-    pull = load%tension + load%stiffness*load_deflection(linkage, pose, load)
-  end function spring_pull
-
-  !> How a damper does, at a rate of its coordinate [N] or [N m].
-  pure function damper_pull(load, rate) result(pull)
-    type(applied_load_t), intent(in) :: load !! along a line or between two bodies
-    real(wp), intent(in) :: rate             !! [m/s] or [rad/s]
-    real(wp) :: pull
-
-    pull = load%damping*rate + resistance(load, rate)
-  end function damper_pull
-
   !> Potential energy of springs, 0 unloaded, and of constant forces, 0 with their places at the
   !! global origin [J].
   pure function applied_potential(linkage, pose) result(energy)
@@ -326,7 +310,6 @@ contains
     type(pose_t), intent(in) :: pose       !! positions and directions
     real(wp) :: energy
 
-    real(wp) :: stretch
     integer :: i
 
     energy = 0.0_wp
@@ -334,11 +317,10 @@ contains
       associate (load => linkage%loads(i))
         if (.not. is_conservative(load)) cycle
         if (load%kind == applies_force) then
-          energy = energy - dot_product(load%force, terminal_place(linkage, pose, load%at(1)) + &
+          energy = energy - dot_product(load%force, terminal_place(linkage, pose, load%at) + &
             pose%origin)
         else
-          stretch = load_deflection(linkage, pose, load)
-          energy = energy + (load%tension + 0.5_wp*load%stiffness*stretch)*stretch
+          energy = energy + pull_energy(linkage, pose, load)
         end if
       end associate
     end do
@@ -352,25 +334,37 @@ contains
     type(kinematic_coefficients_t), intent(in) :: per !! velocities per rate of the coordinate
     real(wp) :: scale
 
-    real(wp) :: pull
     integer :: i
 
     scale = 0.0_wp
     do i = 1, size(linkage%loads)
       associate (load => linkage%loads(i))
-        if (.not. is_conservative(load) .or. load%kind == applies_force) cycle
-        pull = abs(load%tension) + load%stiffness*(abs(load_deflection(linkage, pose, load)) + &
-          abs(load%rest))
-        if (load%kind == applies_along) then
-          scale = scale + pull*(norm2(terminal_velocity(linkage, pose, per, load%at(1))) + &
-            norm2(terminal_velocity(linkage, pose, per, load%at(2))))
-        else
-          scale = scale + pull*abs(per%turn(load%body(2)))
-          if (load%body(1) > 0) scale = scale + pull*abs(per%turn(load%body(1)))
-        end if
+        if (.not. is_conservative(load) .or. load%kind /= applies_along) cycle
+        scale = scale + pull_scale(linkage, pose, load)*work_scale(linkage, pose, per, load%along)
       end associate
     end do
   end function spring_scale
+
+  !> Sum of the magnitudes of the works of an effort of 1 along a coordinate.
+  pure function work_scale(linkage, pose, per, coordinate) result(scale)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: per
+    type(coordinate_t), intent(in) :: coordinate
+    real(wp) :: scale
+
+    type(wrench_t) :: wrench(2*terms_in(coordinate))
+    integer :: k
+
+    wrench = coordinate_wrenches(linkage, pose, coordinate)
+    scale = 0.0_wp
+    do k = 1, size(wrench)
+      associate (at => wrench(k)%at)
+        scale = scale + norm2(wrench(k)%force)*norm2(terminal_velocity(linkage, pose, per, at))
+        if (at%body > 0) scale = scale + abs(wrench(k)%couple*per%turn(at%body))
+      end associate
+    end do
+  end function work_scale
 
   !> Generalised force of loads: their virtual work per change of the coordinate for which the
   !! coefficients stand [N m] or [N].
@@ -397,7 +391,7 @@ contains
     real(wp) :: force(2)
 
     force = load%force
-    if (load%is_carried) force = turned(load%force, pose%direction(:, load%at(1)%body))
+    if (load%is_carried) force = turned(load%force, pose%direction(:, load%at%body))
   end function force_of
 
   !> Whether a load changes its direction or its share with the direction of the motion.
@@ -427,12 +421,12 @@ contains
         value = [load%couple, 0.0_wp]
         select case (load%kind)
         case (applies_force)
-          velocity = terminal_velocity(linkage, pose, now, load%at(1))
+          velocity = terminal_velocity(linkage, pose, now, load%at)
           value = force_of(pose, load)
         case (applies_couple)
-          velocity = [now%turn(load%body(1)), 0.0_wp]
+          velocity = [now%turn(load%at%body), 0.0_wp]
         case default
-          velocity = [load_rate(linkage, pose, now, load), 0.0_wp]
+          velocity = [coordinate_rate(linkage, pose, now, load%along), 0.0_wp]
         end select
         if (load%resisting > 0.0_wp) switches(:, 2*i - 1) = velocity/load%smooth
         if (load%during /= acts_always) switches(1, 2*i) = along_value(load, velocity, value)
@@ -470,26 +464,28 @@ contains
     resistance = load%resisting*tanh(speed/load%smooth)
   end function resistance
 
-  !> Adds a pull that shortens a line, or turns two bodies back.
-  pure subroutine add_pull(linkage, pose, load, pull, body_load, pin_load)
+  !> Adds what an effort along a coordinate puts on pins and bodies.
+  pure subroutine add_effort(linkage, pose, coordinate, effort, body_load, pin_load)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
-    type(applied_load_t), intent(in) :: load
-    real(wp), intent(in) :: pull !! [N] or [N m]
+    type(coordinate_t), intent(in) :: coordinate
+    real(wp), intent(in) :: effort !! [N] or [N m]
     type(load_t), intent(inout) :: body_load(:)
     real(wp), intent(inout) :: pin_load(:, :)
 
-    real(wp) :: axis(2)
+    type(wrench_t) :: wrench(2*terms_in(coordinate))
+    integer :: k
 
-    if (load%kind == applies_along) then
-      axis = load_axis(linkage, pose, load)
-      call add_force(pose, load%at(1), pull*axis, body_load, pin_load)
-      call add_force(pose, load%at(2), -pull*axis, body_load, pin_load)
-    else
-      body_load(load%body(2))%moment = body_load(load%body(2))%moment - pull
-      if (load%body(1) > 0) body_load(load%body(1))%moment = body_load(load%body(1))%moment + pull
-    end if
-  end subroutine add_pull
+    wrench = coordinate_wrenches(linkage, pose, coordinate)
+    do k = 1, size(wrench)
+      associate (at => wrench(k)%at)
+        if (at%body == 0 .and. at%pin == 0) cycle
+        call add_force(pose, at, effort*wrench(k)%force, body_load, pin_load)
+        if (at%body > 0) body_load(at%body)%moment = body_load(at%body)%moment + &
+          effort*wrench(k)%couple
+      end associate
+    end do
+  end subroutine add_effort
 
   !> Adds a force at a place.
   pure subroutine add_force(pose, at, force, body_load, pin_load)

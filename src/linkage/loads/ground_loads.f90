@@ -1,11 +1,12 @@
-!> What springs and dampers that stand on the ground put on it.
+!> What springs, dampers and stops that stand on the ground put on it.
 module ground_loads
-  use applied_load_types, only: applies_along, applies_between
+  use coordinate_types, only: coordinate_t, wrench_t
+  use coordinates, only: coordinate_wrenches, terms_in
+  use applied_load_types, only: applies_along
   use kinds, only: wp
   use linkages, only: cross, linkage_t, reference_point
-  use load_coordinates, only: load_axis
   use pose_types, only: pose_t
-  use terminals, only: terminal_place
+  use terminals, only: is_fixed
   implicit none (type, external)
   private
 
@@ -13,32 +14,43 @@ module ground_loads
 
 contains
 
-  !> Force on the ground, and its moment about `reference_point`, of what pulls at it along lines or
-  !! turns bodies against it [N, N m].
+  !> Force on the ground, and its moment about `reference_point`, of what pulls at it [N, N m].
   pure function pulls_on_ground(linkage, pose, pull) result(total)
     type(linkage_t), intent(in) :: linkage !! its loads
-    type(pose_t), intent(in) :: pose       !! positions in global axes, and directions
-    real(wp), intent(in) :: pull(:)        !! (loads) of springs or of dampers, 0 of all others [N]
-                                           !! or [N m]
+    type(pose_t), intent(in) :: pose       !! positions and directions
+    real(wp), intent(in) :: pull(:)        !! (loads) along coordinates, 0 of all others [N] or
+                                           !! [N m]
     real(wp) :: total(3)
 
-    real(wp) :: force(2)
-    integer :: i, k
+    integer :: i
 
     total = 0.0_wp
     do i = 1, size(pull)
-      associate (load => linkage%loads(i))
-        if (load%kind == applies_between .and. load%body(1) == 0) total(3) = total(3) + pull(i)
-        if (load%kind /= applies_along) cycle
-        do k = 1, 2
-          if (load%at(k)%pin == 0) cycle
-          if (.not. linkage%is_ground(load%at(k)%pin)) cycle
-          force = merge(pull(i), -pull(i), k == 1)*load_axis(linkage, pose, load)
-          total = total + [force, cross(terminal_place(linkage, pose, load%at(k)) - &
-            reference_point(linkage), force)]
-        end do
-      end associate
+      if (linkage%loads(i)%kind == applies_along) total = total + on_ground(linkage, pose, &
+        linkage%loads(i)%along, -pull(i))
     end do
   end function pulls_on_ground
+
+  !> The same of an effort along a coordinate.
+  pure function on_ground(linkage, pose, coordinate, effort) result(total)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(coordinate_t), intent(in) :: coordinate
+    real(wp), intent(in) :: effort !! [N] or [N m]
+    real(wp) :: total(3)
+
+    type(wrench_t) :: wrench(2*terms_in(coordinate))
+    integer :: k
+
+    wrench = coordinate_wrenches(linkage, pose, coordinate)
+    total = 0.0_wp
+    do k = 1, size(wrench)
+      if (.not. is_fixed(linkage, wrench(k)%at)) cycle
+      associate (force => effort*wrench(k)%force)
+        total = total + [force, effort*wrench(k)%couple + cross(wrench(k)%place + pose%origin - &
+          reference_point(linkage), force)]
+      end associate
+    end do
+  end function on_ground
 
 end module ground_loads

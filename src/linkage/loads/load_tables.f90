@@ -1,29 +1,25 @@
 !> Tables of loads: over what coordinate of the linkage they are, where they end, after how much of
 !! the first drive they repeat.
 module load_tables
-  use applied_load_types, only: applied_load_t, applies_between, over_angle, over_drive, &
-    over_nothing, over_slider, over_travel
+  use applied_load_types, only: applied_load_t, applies_along, over_coordinate, over_nothing, &
+    over_time
   use constants, only: degree
-  use coordinates, only: coordinate_value, slider_coordinate
+  use coordinates, only: coordinate_value
   use cubic_splines, only: spline_values
   use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
-  use linkages, only: drive_of_angle, linkage_t
-  use load_coordinates, only: counts_turns, load_deflection
+  use group_equations, only: drive_rate
+  use linkages, only: linkage_t
   use pose_types, only: pose_t
-  use poses, only: body_angle
-  use terminals, only: terminal_place
+  use pulls, only: counts_turns, jumps
   use text, only: to_string
   implicit none (type, external)
   private
 
-  public :: table_factor, refuse_beyond_tables, load_period
+  public :: table_factor, refuse_beyond_tables, load_period, next_row
 
   !> By how much rounding may put a coordinate beyond the ends of a table, of its length.
   real(wp), parameter :: slack = 1.0e-12_wp
-
-  !> Largest angle between a torsional spring and its rest; its sign changes at a half turn [rad].
-  real(wp), parameter :: most_deflection = 170.0_wp*degree
 
 contains
 
@@ -42,23 +38,27 @@ contains
     if (.not. allocated(linkage%loads)) return
     do i = 1, size(linkage%loads)
       associate (load => linkage%loads(i))
-        if (load%kind == applies_between .and. load%stiffness > 0.0_wp .and. &
-          .not. counts_turns(linkage, load)) then
-          if (abs(load_deflection(linkage, pose, load)) > most_deflection) then
-            call set_error(error, error_of_numerics, "a torsional spring is turned by nearly "// &
+        if (load%kind == applies_along) then
+          if (jumps(linkage, pose, load)) then
+            words = "a torsional spring"
+            if (load%side /= 0) words = "the angle of '"//load%name//"'"
+            call set_error(error, error_of_numerics, words//" is turned by nearly "// &
               "half a turn or more, and its torque would jump")
             return
           end if
         end if
         if (load%over == over_nothing .or. load%table%is_periodic) cycle
-        x = table_coordinate(linkage, pose, load)
+        if (load%over == over_time .and. .not. pose%has_time) cycle
+        x = table_variable(linkage, pose, load)
         first = load%table%x(1)
         last = load%table%x(size(load%table%x))
         if (x >= first - slack*(last - first) .and. x <= last + slack*(last - first)) cycle
         words = "the table "//load%table_name//trim(merge(" begins later", " ends before ", &
           x < first))
-        if (load%over == over_angle) words = words//": it is over the angle of the link '"// &
-          load%over_name//"', here "//to_string(x/degree)//" deg; without 'over=' a table is "// &
+        if (load%over == over_time) words = words//": it is over the time, here "//to_string(x)// &
+          " s"
+        if (allocated(load%angle_name)) words = words//": it is over the angle of the link '"// &
+          load%angle_name//"', here "//to_string(x/degree)//" deg; without 'over=' a table is "// &
           "over the first drive and its turns"
         call set_error(error, error_of_numerics, words)
         return
@@ -81,10 +81,11 @@ contains
     if (.not. allocated(linkage%loads) .or. period <= 0.0_wp) return
     do i = 1, size(linkage%loads)
       associate (load => linkage%loads(i))
-        if (load%kind == applies_between .and. load%body(1) == 0 .and. load%body(2) == 1 .and. &
-          linkage%has_crank .and. load%stiffness > 0.0_wp) whole = 0.0_wp
-        if (load%over /= over_drive) cycle
-        if (.not. load%table%is_periodic) whole = 0.0_wp
+        if (load%kind == applies_along .and. load%stiffness > 0.0_wp .and. counts_turns(load)) then
+          if (abs(drive_rate(linkage, load%along%drive)) > 0.0_wp) whole = 0.0_wp
+        end if
+        if (load%over /= over_coordinate .or. load%variable%drive == 0) cycle
+        if (.not. load%table%is_periodic .or. load%variable%drive > 1) whole = 0.0_wp
         if (whole <= 0.0_wp) return
         length = (load%table%x(size(load%table%x)) - load%table%x(1))/degree
         do turns = 1, most_turns
@@ -100,8 +101,8 @@ contains
 
   !> What the value of a load is multiplied with: 1, or the value of its table.
   pure function table_factor(linkage, pose, load) result(factor)
-    type(linkage_t), intent(in) :: linkage   !! its sliders and bodies
-    type(pose_t), intent(in) :: pose         !! with the coordinate of the first drive
+    type(linkage_t), intent(in) :: linkage   !! its coordinates
+    type(pose_t), intent(in) :: pose         !! with the coordinate of the first drive, and the time
     type(applied_load_t), intent(in) :: load !! with a table or without
     real(wp) :: factor
 
@@ -109,31 +110,37 @@ contains
 
     factor = 1.0_wp
     if (load%over == over_nothing) return
-    values = spline_values(load%table, table_coordinate(linkage, pose, load))
+    values = spline_values(load%table, table_variable(linkage, pose, load))
     factor = values(1)
   end function table_factor
 
-  !> The coordinate that the table of a load is over [m] or [rad].
-  pure function table_coordinate(linkage, pose, load) result(x)
-    type(linkage_t), intent(in) :: linkage   !! its sliders and bodies
-    type(pose_t), intent(in) :: pose         !! with the coordinate of the first drive
+  !> What the table of a load is over [m], [rad] or [s].
+  pure function table_variable(linkage, pose, load) result(x)
+    type(linkage_t), intent(in) :: linkage   !! its coordinates
+    type(pose_t), intent(in) :: pose         !! with the coordinate of the first drive, and the time
     type(applied_load_t), intent(in) :: load !! with a table
     real(wp) :: x
 
-    select case (load%over)
-    case (over_drive)
-      x = pose%crank
-      if (linkage%drives(1)%kind == drive_of_angle) x = x*degree
-    case (over_slider)
-      x = coordinate_value(linkage, pose, slider_coordinate(linkage, load%number))
-    case (over_travel)
-      x = dot_product(load%force, terminal_place(linkage, pose, load%at(1)) + pose%origin)/ &
-        norm2(load%force)
-    case (over_angle)
-      x = body_angle(linkage, pose, load%number)
-    case default
-      x = 0.0_wp
-    end select
-  end function table_coordinate
+    x = pose%time
+    if (load%over == over_coordinate) x = coordinate_value(linkage, pose, load%variable)
+  end function table_variable
+
+  !> The first row after an instant of any table over time, or a later instant if there is none
+  !! before: from row to row what such a load does is smooth [s].
+  pure function next_row(linkage, time, later) result(next)
+    type(linkage_t), intent(in) :: linkage   !! its loads
+    real(wp), intent(in) :: time, later      !! [s]
+    real(wp) :: next
+
+    integer :: i
+
+    next = later
+    if (.not. allocated(linkage%loads)) return
+    do i = 1, size(linkage%loads)
+      associate (load => linkage%loads(i))
+        if (load%over == over_time) next = min(next, minval(load%table%x, load%table%x > time))
+      end associate
+    end do
+  end function next_row
 
 end module load_tables

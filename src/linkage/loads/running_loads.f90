@@ -1,7 +1,7 @@
 !> Loads that depend on the speed of a running linkage otherwise than as its square: dampers,
 !! resistances, loads that act in one direction of the motion, and friction in the joints.
 module running_loads
-  use applied_loads, only: add_moving_loads, damper_pulls, generalised_force, has_moving_loads
+  use applied_loads, only: add_moving_loads, generalised_force, has_moving_loads, moving_pulls
   use ground_loads, only: pulls_on_ground
   use inertia_loads, only: load_t
   use joint_forces, only: add_scaled, find_joint_forces, joint_forces_t
@@ -88,7 +88,7 @@ contains
     if (has_moving_loads(linkage)) then
       now = velocities_at(coefficients, speed)
       call add_moving_loads(linkage, pose, now, running%body_load, running%pin_load)
-      running%on_ground = pulls_on_ground(linkage, pose, damper_pulls(linkage, pose, now))
+      running%on_ground = pulls_on_ground(linkage, pose, moving_pulls(linkage, pose, now))
     end if
     if (present(divided)) then
       running%joints = divided%moving

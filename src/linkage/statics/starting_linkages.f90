@@ -1,6 +1,6 @@
 !> Loads of a linkage that starts from rest: resistances act with their full size at once.
 module starting_linkages
-  use applied_load_types, only: applies_along, applies_force
+  use applied_load_types, only: applied_load_t, applies_couple, is_torsional
   use group_equations, only: farthest_arm
   use kinds, only: wp
   use linkages, only: drive_of_angle, linkage_t
@@ -38,18 +38,18 @@ contains
     end if
     starting = linkage
     starting%loads%damping = 0.0_wp
-    starting%loads%smooth = merge(sliding, turning, is_along_line(linkage%loads%kind))
+    starting%loads%smooth = merge(sliding, turning, is_along_line(linkage%loads))
     if (.not. allocated(linkage%frictions)) return
     starting%frictions%viscous = 0.0_wp
     starting%frictions%smooth = merge(sliding, turning, linkage%frictions%slider > 0)
   end function starting_linkage
 
   !> Whether a load is along a line, not about a pin.
-  elemental function is_along_line(kind) result(is)
-    integer, intent(in) :: kind !! of the load
+  elemental function is_along_line(load) result(is)
+    type(applied_load_t), intent(in) :: load
     logical :: is
 
-    is = kind == applies_force .or. kind == applies_along
+    is = .not. (load%kind == applies_couple .or. is_torsional(load))
   end function is_along_line
 
 end module starting_linkages

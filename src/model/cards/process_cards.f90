@@ -18,15 +18,15 @@ module process_cards
   public :: process_card_t, is_process_form, read_process_force, read_process_torque, &
     read_resistance
   public :: process_force, process_torque, process_resistance
-  public :: over_nothing, over_drive, over_slider, over_travel, over_angle
+  public :: over_nothing, over_drive, over_slider, over_travel, over_angle, over_measure, over_time
   public :: smooth_velocity, smooth_rate
 
   integer, parameter :: process_force = 1, process_torque = 2, process_resistance = 3
 
   !> What a table is over: nothing, the first drive, the place of the block at a pin, the travel of
-  !! the place of the force along it, the angle of a link.
+  !! the place of the force along it, the angle of a link, a coordinate with a name, the time.
   integer, parameter :: over_nothing = 0, over_drive = 1, over_slider = 2, over_travel = 3, &
-    over_angle = 4
+    over_angle = 4, over_measure = 5, over_time = 6
 
   !> Speeds within which loads change smoothly, unless the card says another [m/s], [rad/s].
   real(wp), parameter :: smooth_velocity = 1.0e-3_wp, smooth_rate = 1.0e-2_wp
@@ -53,9 +53,10 @@ module process_cards
     type(token_t) :: table_word            !! value of `table=`
     type(token_t) :: over_word             !! value of `over=`
     integer :: over = over_nothing         !! one of the over_… constants
-    integer :: number = 0                  !! of the slider or link that the table is over
+    integer :: number = 0                  !! of the slider, link or coordinate that the table is
+                                           !! over
     logical :: is_periodic = .false.       !! the table
-    real(wp), allocatable :: x(:), y(:)    !! (rows) of the table [rad] or [m], [N] or [N m]
+    real(wp), allocatable :: x(:), y(:)    !! (rows) of the table [rad], [m] or [s], [N] or [N m]
   end type process_card_t
 
 contains

@@ -1,11 +1,12 @@
 !> SPRING and DAMPER cards: along the line between two places, or torsional between two links or a
 !! link and the ground. Names are looked up later, by `spring_checks`.
 module spring_cards
-  use card_reader, only: check_form, key_of, read_entry_quantity, read_part_name, refuse_negative, &
-    value_of
+  use card_reader, only: check_form, has_key, has_value, key_of, read_choice, &
+    read_entry_quantity, read_part_name, refuse_negative, require_positive, value_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
+  use stop_cards, only: read_contact
   use text, only: same_word
   use tokens, only: earlier, later, token_t
   use units, only: dimension_angle, dimension_damping, dimension_force, dimension_length, &
@@ -33,6 +34,10 @@ module spring_cards
                                          !! the drawing
     real(wp) :: rest = 0.0_wp            !! coordinate without load [m] or [rad]
     type(token_t) :: load_word           !! value of `force=` or `torque=`; else without a line
+    integer :: side = 0                  !! of its rest on which it acts: 1 pull, −1 push; 0: both
+    type(token_t) :: side_word           !! value of `only=`; else without a line
+    real(wp) :: gap = 0.0_wp             !! from the rest to where it acts [m] or [rad]
+    real(wp) :: contact = 0.0_wp         !! width of the contact [m] or [rad]; 0: not on the card
     real(wp) :: load = 0.0_wp            !! in the drawing: tension, or against a growing angle [N]
                                          !! or [N m]
   end type spring_card_t
@@ -48,7 +53,8 @@ contains
   end function is_spring_card
 
   !> Reads `SPRING name end end stiffness= [free_length= | force=]`, `SPRING name pin link [link]
-  !! stiffness= [free_angle= | torque=]`, and the DAMPER cards that have `damping=` instead.
+  !! stiffness= [free_angle= | torque=]`, both with `[only=push|pull [gap=] [damping=] [contact=]]`,
+  !! and the DAMPER cards that have `damping=` instead.
   !! Errors: words or keys that do not fit the card, an invalid name, a missing, negative or
   !! unreadable value, a key of the other form, a rest and a load at once.
   pure subroutine read_spring(card, turns, system, diagnostics, spring)
@@ -69,6 +75,7 @@ contains
     spring%link_names(1) = none
     spring%link_names(2) = none
     spring%load_word = none
+    spring%side_word = none
     spring%damps = same_word(card%keyword%text, "DAMPER")
     spring%turns = turns
     call check_form(card, diagnostics, fine, known_keys)
@@ -111,13 +118,51 @@ contains
         spring%load, has_load)
       if (has_load) spring%load_word = value_of(card, "force")
     end if
+    call read_side(card, turns, system, diagnostics, spring)
     if (spring%has_rest .and. has_load) call refuse_both(card, merge("free_angle ", &
       "free_length", turns), merge("torque", "force ", turns), diagnostics)
-    if (is_stiff .and. .not. spring%stiffness > 0.0_wp .and. .not. has_load) call &
+    if (is_stiff .and. .not. spring%stiffness > 0.0_wp .and. .not. has_load .and. &
+      spring%side_word%line == 0) call &
       add_error(diagnostics, value_of(card, "stiffness"), &
       "a spring without stiffness does nothing but with '"//trim(merge("torque", "force ", &
       turns))//"=', which it then keeps")
   end subroutine read_spring
+
+  !> Reads `[only=push|pull [gap=] [damping=] [contact=]]`. Errors: unreadable or negative values,
+  !! the others without the first, a load in the drawing beside it, no stiffness.
+  pure subroutine read_side(card, turns, system, diagnostics, spring)
+    type(card_t), intent(in) :: card
+    logical, intent(in) :: turns
+    type(unit_system_t), intent(in) :: system
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(spring_card_t), intent(inout) :: spring !! with all else
+
+    character(len=*), parameter :: others(3) = ["gap    ", "damping", "contact"]
+    logical :: fine
+    integer :: choice, i
+
+    if (.not. has_key(card, "only")) then
+      do i = 1, size(others)
+        if (has_key(card, trim(others(i)))) call add_error(diagnostics, key_of(card, &
+          trim(others(i))), "'"//trim(others(i))//"=' belongs to a spring of one side, and "// &
+          "'only=push' or 'only=pull' is missing")
+      end do
+      return
+    end if
+    if (.not. has_value(card, "only")) return
+    spring%side_word = value_of(card, "only")
+    call read_choice(spring%side_word, "push pull", diagnostics, choice)
+    if (choice > 0) spring%side = merge(-1, 1, choice == 1)
+    call read_entry_quantity(card, "gap", merge(dimension_angle, dimension_length, turns), system, &
+      .false., diagnostics, spring%gap, fine)
+    if (fine) call refuse_negative(value_of(card, "gap"), spring%gap, "a gap", diagnostics)
+    call read_contact(card, turns, system, diagnostics, spring%damping, spring%contact)
+    if (spring%load_word%line > 0) call add_error(diagnostics, key_of(card, &
+      trim(merge("torque", "force ", turns))), "a spring of one side is unloaded in the "// &
+      "drawing, or at '"//trim(merge("free_angle ", "free_length", turns))//"='")
+    if (has_value(card, "stiffness")) call require_positive(card, "stiffness", spring%stiffness, &
+      diagnostics)
+  end subroutine read_side
 
   !> Reads the value that every such card has.
   pure subroutine read_factor(card, key, dimension, known_keys, system, diagnostics, value, &

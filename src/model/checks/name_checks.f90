@@ -65,6 +65,7 @@ contains
     call refuse_same(subjects_of(model, .true.), "load on")
     call refuse_same(model%springs%name, "spring or damper")
     call refuse_same(model%measures%name, "measure")
+    call refuse_same(model%stops%name, "stop")
     do i = 2, size(model%reports)
       do j = 1, min(i - 1, most_reports)
         if (len_trim(model%reports(i)%kind%name) == 0 .or. &

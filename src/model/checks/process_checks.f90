@@ -5,15 +5,17 @@ module process_checks
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use kinds, only: wp
-  use models, only: drives_length, model_t
+  use models, only: drives_length, has_law, model_t
   use name_checks, only: link_ends, look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
-  use process_cards, only: over_angle, over_drive, over_slider, over_travel, process_card_t, &
-    process_force, process_resistance
+  use named_coordinates, only: coordinate_number, find_named_coordinates, named_coordinate_t
+  use process_cards, only: over_angle, over_drive, over_measure, over_slider, over_time, &
+    over_travel, process_card_t, process_force, process_resistance
   use table_cards, only: number_table_t, read_table
   use text, only: same_word, to_string
   use tokens, only: token_t, token_texts
-  use units, only: dimension_angle, dimension_force, dimension_length, dimension_moment
+  use units, only: dimension_angle, dimension_force, dimension_length, dimension_moment, &
+    dimension_time
   implicit none (type, external)
   private
 
@@ -71,11 +73,10 @@ contains
     integer :: dimensions(4, 2)
     logical :: fine, is_angle
 
-    call find_variable(model, links, pins, process, diagnostics, fine)
+    call find_variable(model, links, pins, process, diagnostics, fine, is_angle)
     if (.not. fine) return
-    is_angle = process%over == over_angle .or. process%over == over_drive .and. &
-      .not. drives_length(model)
     dimensions(:, 1) = merge(dimension_angle, dimension_length, is_angle)
+    if (process%over == over_time) dimensions(:, 1) = dimension_time
     dimensions(:, 2) = merge(dimension_force, dimension_moment, process%kind == process_force)
     call read_table(cards, process%table_word, "position and load", dimensions, diagnostics, &
       table, fine)
@@ -103,21 +104,26 @@ contains
     end associate
   end subroutine find_table
 
-  !> What a table is over: the first drive without `over=`; the angle of a link; the place of the
-  !! block at a pin; of another pin, on which the force acts, its travel.
-  pure subroutine find_variable(model, links, pins, process, diagnostics, fine)
+  !> What a table is over: the first drive without `over=`; the place of the block at a pin; of
+  !! another pin, on which the force acts, its travel; the angle of a link; a coordinate with a
+  !! name; the time.
+  pure subroutine find_variable(model, links, pins, process, diagnostics, fine, is_angle)
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: links, pins
     type(process_card_t), intent(inout) :: process
     type(diagnostics_t), intent(inout) :: diagnostics
     logical, intent(out) :: fine
+    logical, intent(out) :: is_angle !! of a coordinate
 
+    type(named_coordinate_t), allocatable :: named(:)
     integer :: i
 
     fine = .true.
     process%over = over_drive
+    is_angle = .not. drives_length(model)
     associate (word => process%over_word)
       if (word%line == 0) return
+      is_angle = .false.
       do i = 1, size(model%sliders)
         if (.not. same_word(model%sliders(i)%pin%text, word%text)) cycle
         process%over = over_slider
@@ -131,14 +137,23 @@ contains
       end if
       process%number = find_name(links, word%text)
       process%over = over_angle
-      fine = process%number > 0
-      if (fine) return
+      is_angle = process%number > 0
+      if (is_angle) return
+      call find_named_coordinates(model, named)
+      process%number = coordinate_number(named, word%text)
+      process%over = merge(over_measure, over_time, process%number > 0)
+      if (process%number > 0) then
+        is_angle = named(process%number)%is_angle
+        return
+      end if
+      if (same_word(word%text, "time")) return
+      fine = .false.
       if (find_name(pins, word%text) > 0) then
         call add_error(diagnostics, word, "no block slides at pin '"//word%text// &
           "'; a table is over the place of a block, the angle of a link, or the travel of the "// &
           "pin on which the force acts")
       else
-        call look_up(word, links, "link or pin", diagnostics, i)
+        call look_up(word, links, "link, pin, measure or time", diagnostics, i)
       end if
     end associate
   end subroutine find_variable
@@ -156,7 +171,13 @@ contains
     do k = 1, size(model%reports)
       do i = 1, size(model%processes)
         associate (process => model%processes(i), report => model%reports(k))
-          if (report%kind%response .and. .not. is_damper(process)) then
+          if (process%over == over_time .and. (report%kind%name == "equilibrium" .or. &
+            report%kind%masses .and. report%kind%name /= "motion" .and. .not. has_law(model))) then
+            call add_error(diagnostics, process%over_word, "positions have no time: a table "// &
+              "over the time needs REPORT motion, or tables of a drive with a law, over TIME", &
+              report%keyword, "this report has positions")
+            exit
+          else if (report%kind%response .and. .not. is_damper(process)) then
             call add_error(diagnostics, process%keyword, "REPORT "//trim(report%kind%name)// &
               " takes constant forces on pins and constant torques only", report%keyword, &
               "it is asked for here")

@@ -252,7 +252,7 @@ contains
       end if
       associate (at => positions%states(positions%state(position)))
         state = coordinate_state(linkage, at%pose, at%coefficients, positions%crank(position), &
-          number, listed%load, force, rates)
+          number, force, rates)
       end associate
     end associate
   end function state_at

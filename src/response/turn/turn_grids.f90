@@ -15,6 +15,7 @@ module turn_grids
   use band_matrix, only: full_band
   use body_lumps, only: lump_offsets
   use border_rows, only: row_spring
+  use coordinates, only: coordinate_rate
   use deformation_model, only: deformation_model_t
   use elastic_linkages, only: elastic_linkage_t
   use dense_eigensolver, only: solve_dense
@@ -26,7 +27,6 @@ module turn_grids
   use link_modes, only: link_modes_t
   use linkages, only: linkage_t, normal_to
   use load_cases, only: case_count, find_unit_loads, load_case_t, unit_loads_t
-  use load_coordinates, only: load_rate
   use moving_integrals, only: chord_functions, moving_integrals_t, new_moving_integrals
   use moving_pieces, only: amplitude_scales, moving_ends, moving_piece_t, new_moving_piece, no_end
   use part_displacements, only: border_t, find_part_chords
@@ -544,8 +544,8 @@ contains
     do i = 1, size(grid%dampers)
       grid%weighted(k, n + i, :) = forces%row(:, i)
       associate (damper => grid%dampers(i))
-        damper%rate(k) = load_rate(linkage, pose, coefficients, &
-          linkage%loads(here%elastic%dampers(i)%load))
+        damper%rate(k) = coordinate_rate(linkage, pose, coefficients, &
+          linkage%loads(here%elastic%dampers(i)%load)%along)
         damper%force(k, :) = forces%axial(:, i)
         damper%second_order(k, :, :) = forces%second_order(:, :, i)
       end associate

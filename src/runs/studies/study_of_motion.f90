@@ -78,7 +78,6 @@ contains
       request%with_pins = asked%with_pins .or. report_number(model, "geometry") > 0
       request%through = motion_goes_through(model)
       if (asked%with_coordinates) then
-        request%load = mechanism%coordinates%load
         request%held_by = mechanism%coordinates%drive
         ! Free drives but the first have no force.
         do i = 1, size(request%held_by)

@@ -41,9 +41,8 @@ module motion_study
     type(gear_t) :: gear                 !! between them
     logical :: with_details = .false.    !! accelerations and powers are wanted
     logical :: with_forces = .false.     !! forces in the joints are wanted, and the former
-    integer, allocatable :: load(:)      !! (coordinates) number of the spring or damper of each; 0:
-                                         !! none. Not allocated: coordinates are not wanted
-    integer, allocatable :: held_by(:)   !! (coordinates) number of the drive of each; 0: none
+    integer, allocatable :: held_by(:)   !! (coordinates) number of the drive of each; 0: none. Not
+                                         !! allocated: coordinates are not wanted
     logical :: with_pins = .false.       !! the places of all pins are wanted
     logical :: through = .false.         !! straight through change points, in place of a stop there
   end type motion_request_t
@@ -113,7 +112,7 @@ contains
       result%acceleration(merge(3, size(free_drives(request%is_free)), has_loop(linkage)), &
       size(request%instants)), result%power(3, size(request%instants)), &
       result%motor(2, size(request%instants)))
-    if (allocated(request%load)) allocate (result%coordinates(size(request%load), &
+    if (allocated(request%held_by)) allocate (result%coordinates(size(request%held_by), &
       size(request%instants)))
     if (request%with_forces) then
       call list_joints(linkage, result%joints)
@@ -193,7 +192,7 @@ contains
     result%power(:, number) = [details%driven%power, details%driven%loss, details%load_power]
     if (under_way%request%with_forces) result%force(:, :, number) = joint_values( &
       under_way%linkage, result%joints, details%joints, details%direction, details%turning)
-    if (allocated(under_way%request%load)) call take_coordinates(under_way, details, &
+    if (allocated(under_way%request%held_by)) call take_coordinates(under_way, details, &
       result%coordinates(:, number))
   end subroutine take_details
 
@@ -216,7 +215,7 @@ contains
         end if
       end associate
       states(i) = coordinate_state(under_way%linkage, details%pose, details%motion, &
-        details%pose%crank, i, under_way%request%load(i), force, [1.0_wp, 0.0_wp])
+        details%pose%crank, i, force, [1.0_wp, 0.0_wp])
     end do
   end subroutine take_coordinates
 

@@ -1,13 +1,13 @@
 !> Coordinates of a moving linkage: rates, accelerations, what acts along them, ratios.
 module coordinate_study
-  use applied_loads, only: damper_pull, spring_pull
   use constants, only: degree
-  use coordinate_types, only: coordinate_t, is_angle, is_distance, is_sum
-  use coordinates, only: coordinate_acceleration, coordinate_rate, coordinate_value
+  use coordinate_types, only: coordinate_t, is_distance, is_sum
+  use coordinates, only: coordinate_acceleration, coordinate_rate, coordinate_value, is_turning
   use group_equations, only: drive_value
   use kinds, only: wp
   use linkages, only: linkage_t
   use pose_types, only: kinematic_coefficients_t, pose_t
+  use pulls, only: moving_pull, standing_pull
   implicit none (type, external)
   private
 
@@ -31,7 +31,7 @@ contains
 
   !> A coordinate at a pose, a speed and an acceleration of the first drive: with the coefficients
   !! s' and s'' its rate is s' ω, its acceleration s' α + s'' ω².
-  pure function coordinate_state(linkage, pose, coefficients, crank, number, load, force, rates) &
+  pure function coordinate_state(linkage, pose, coefficients, crank, number, force, rates) &
     result(state)
     type(linkage_t), intent(in) :: linkage !! its coordinates and loads
     type(pose_t), intent(in) :: pose       !! positions and directions
@@ -40,23 +40,20 @@ contains
     real(wp), intent(in) :: crank          !! coordinate of the first drive, with all whole turns:
                                            !! several have one pose [deg] or [m]
     integer, intent(in) :: number          !! of the coordinate, from 1
-    integer, intent(in) :: load            !! number of its spring or damper; 0: none
     real(wp), intent(in) :: force          !! of the drive that gives it; 0: none [N] or [N m]
     real(wp), intent(in) :: rates(2)       !! speed and acceleration of the first drive [rad/s] and
                                            !! [rad/s²], or [m/s] and [m/s²]
     type(coordinate_state_t) :: state
 
-    type(pose_t) :: there
     real(wp) :: per
+    integer :: i
 
-    there = pose
-    there%crank = crank
     associate (coordinate => linkage%coordinates(number), speed => rates(1), &
         acceleration => rates(2))
       if (coordinate%drive > 0) then
         state%value = drive_value(linkage%drives(coordinate%drive), crank)
       else
-        state%value = coordinate_value(linkage, there, coordinate)
+        state%value = coordinate_value(linkage, pose, coordinate, crank)
         if (is_turning(linkage, coordinate)) state%value = state%value/degree
       end if
       per = coordinate_rate(linkage, pose, coefficients, coordinate)
@@ -65,20 +62,15 @@ contains
         coefficients, coordinate)*speed**2
     end associate
     state%effort = force
-    if (load > 0) state%effort = state%effort - spring_pull(linkage, pose, &
-      linkage%loads(load)) - damper_pull(linkage%loads(load), state%rate)
+    do i = 1, size(linkage%loads)
+      associate (load => linkage%loads(i))
+        if (load%coordinate /= number) cycle
+        state%effort = state%effort - standing_pull(linkage, pose, load) - moving_pull(linkage, &
+          pose, state%rate, load)
+      end associate
+    end do
     state%power = state%effort*state%rate
   end function coordinate_state
-
-  !> Whether a coordinate is an angle.
-  pure function is_turning(linkage, coordinate) result(is)
-    type(linkage_t), intent(in) :: linkage
-    type(coordinate_t), intent(in) :: coordinate
-    logical :: is
-
-    is = coordinate%kind == is_angle
-    if (coordinate%kind == is_sum) is = linkage%coordinates(coordinate%term(1))%kind == is_angle
-  end function is_turning
 
   !> Change of one coordinate per change of another: s₁'/s₂'.
   pure subroutine coordinate_ratio(linkage, pose, coefficients, number, reference, ratio, moves)

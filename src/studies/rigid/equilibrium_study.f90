@@ -1,6 +1,5 @@
 !> Where a linkage rests whose drive does not act, over all ranges of its first drive.
 module equilibrium_study
-  use applied_load_types, only: applies_between
   use constants, only: degree
   use crank_limits, only: crank_range_t, find_ranges
   use equilibrium_search, only: equilibrium_t, search_range
@@ -11,6 +10,7 @@ module equilibrium_study
   use linkage_paths, only: period_of
   use linkages, only: drive_of_angle, linkage_t
   use load_tables, only: load_period
+  use pulls, only: counts_turns
   use rigid_bodies, only: rigid_bodies_of
   use sorting, only: ascending_order
   implicit none (type, external)
@@ -122,7 +122,7 @@ contains
       moment = 0.0_wp
       do i = 1, size(linkage%loads)
         associate (load => linkage%loads(i))
-          if (load%kind /= applies_between .or. load%body(1) /= 0 .or. load%body(2) /= 1) cycle
+          if (.not. counts_turns(load) .or. load%along%drive /= 1) cycle
           stiffness = stiffness + load%stiffness
           moment = moment + load%stiffness*load%rest
         end associate

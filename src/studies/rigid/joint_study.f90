@@ -8,7 +8,7 @@
 !> Forces in the joints of any linkage: on every link at every pin, of guides, blocks and welds, of
 !! the drives, those that shake the ground, and all that it bears.
 module joint_study
-  use applied_loads, only: spring_pulls
+  use applied_loads, only: standing_pulls
   use constants, only: degree
   use elastic_reactions, only: elastic_division_t, least_open, self_stresses
   use errors, only: error_t, outcome_t
@@ -158,7 +158,7 @@ contains
           running%on_ground
       end do
       found%frame(:, constant_case, i) = found%frame(:, constant_case, i) + &
-        pulls_on_ground(linkage, state%pose, spring_pulls(linkage, state%pose))
+        pulls_on_ground(linkage, state%pose, standing_pulls(linkage, state%pose))
       call turn_guides(linkage, found%joints, state%pose%direction, found%running_force(:, :, :, &
         i))
       call add_blocks(linkage, found%joints, state%coefficients, found%force(:, :, :, i))

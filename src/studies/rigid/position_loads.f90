@@ -2,7 +2,7 @@
 module position_loads
   use elastic_reactions, only: divide_by_elasticity, elastic_division_t, elastic_position_t, &
     find_divided, new_elastic_division
-  use errors, only: error_t, outcome_t
+  use errors, only: error_of_numerics, error_t, outcome_t, set_error
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
@@ -40,6 +40,12 @@ contains
     integer :: i
 
     if (.not. has_elastic_reactions(structure)) return
+    if (any(structure%linkage%loads%side /= 0)) then
+      call set_error(error, error_of_numerics, "how elasticity divides forces among redundant "// &
+        "links is not found with stops and springs of one side; take a redundant link or joint "// &
+        "away, or put a SPRING where they are in contact")
+      return
+    end if
     allocate (division)
     if (present(crank)) then
       call new_elastic_division(structure, division, error, crank)

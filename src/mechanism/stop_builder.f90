@@ -1,0 +1,60 @@
+!> Model → stops of the linkage, and the width of contacts.
+module stop_builder
+  use applied_load_types, only: applied_load_t, applies_along
+  use kinds, only: wp
+  use linkages, only: linkage_t
+  use models, only: model_t
+  implicit none (type, external)
+  private
+
+  public :: stops_of, contact_width
+
+contains
+
+  !> The stops of a model, in the order of the deck.
+  pure function stops_of(model, linkage) result(loads)
+    type(model_t), intent(in) :: model     !! without errors
+    type(linkage_t), intent(in) :: linkage !! with its masses and coordinates
+    type(applied_load_t), allocatable :: loads(:)
+
+    integer :: i
+
+    allocate (loads(size(model%stops)))
+    do i = 1, size(loads)
+      associate (load => loads(i), card => model%stops(i))
+        load%kind = applies_along
+        load%coordinate = card%number
+        load%along = linkage%coordinates(card%number)
+        load%name = card%name%text
+        load%side = merge(-1, 1, card%is_below)
+        load%rest = card%limit
+        load%stiffness = card%stiffness
+        load%damping = card%damping
+        load%contact = contact_width(linkage, card%contact, card%stiffness, card%turns)
+      end associate
+    end do
+  end function stops_of
+
+  !> The width in which a contact begins: that of its card, or a hundredth of the depth to which the
+  !! weight of all bodies would press it, of an angle at the length of the longest [m] or [rad].
+  pure function contact_width(linkage, given, stiffness, turns) result(width)
+    type(linkage_t), intent(in) :: linkage !! with its masses and gravity
+    real(wp), intent(in) :: given          !! 0: not on the card
+    real(wp), intent(in) :: stiffness      !! [N/m] or [N m/rad]
+    logical, intent(in) :: turns           !! it is of an angle
+    real(wp) :: width
+
+    real(wp) :: mass
+    integer :: b
+
+    width = given
+    if (given > 0.0_wp) return
+    mass = sum(linkage%pin_mass) + sum(linkage%bodies%line_density*linkage%bodies%length)
+    do b = 1, size(linkage%bodies)
+      mass = mass + sum(linkage%bodies(b)%lumps%mass)
+    end do
+    width = 0.01_wp*mass*norm2(linkage%gravity)/stiffness
+    if (turns) width = width*maxval(linkage%bodies%length)
+  end function contact_width
+
+end module stop_builder
