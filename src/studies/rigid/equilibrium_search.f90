@@ -213,7 +213,7 @@ contains
         ends(1))
       if (.not. self%turns) step = min(step, 0.25_wp*max(min(crank - ends(1), ends(2) - crank), &
         0.0_wp))
-      call describe_rest(self%holding, step, rest)
+      call describe_rest(self%holding, min(step, 0.5_wp*self%holding%smooth_distance(crank)), rest)
       if (self%repeats .and. kind /= is_indifferent) rest%crank = ends(1) + modulo(rest%crank - &
         ends(1), ends(2) - ends(1))
     end associate

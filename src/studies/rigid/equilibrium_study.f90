@@ -1,5 +1,6 @@
 !> Where a linkage rests whose drive does not act, over all ranges of its first drive.
 module equilibrium_study
+  use applied_load_types, only: applied_load_t
   use constants, only: degree
   use crank_limits, only: crank_range_t, find_ranges
   use equilibrium_search, only: equilibrium_t, search_range
@@ -62,7 +63,11 @@ contains
     allocate (found%at(0), found%curve(0), found%first(size(ranges)))
     do r = 1, size(ranges)
       ends = [ranges(r)%from, ranges(r)%to]
-      if (ranges(r)%turns) call extend_turns(holding, ends, found%is_cut)
+      if (ranges(r)%turns) then
+        call extend_turns(holding, ends, found%is_cut)
+      else
+        call choose_turn(linkage, positions, ends)
+      end if
       found%is_cut = found%is_cut .or. any(ranges(r)%is_open)
       if (r == 1) found%sampled = ends
       found%sampled = [min(found%sampled(1), ends(1)), max(found%sampled(2), ends(2))]
@@ -104,42 +109,79 @@ contains
     call move_alloc(longer, curve)
   end subroutine draw_curve
 
-  !> Springs from the ground to the crank count its turns: rests are where their torque is no more
-  !! than all other loads can give.
+  !> Springs and stops on the angle of the first drive count its turns: rests are where their torque
+  !! is no more than all other loads can give, and within a turn before a stop.
   pure subroutine extend_turns(holding, ends, is_cut)
     type(holding_force_t), intent(in) :: holding
     real(wp), intent(inout) :: ends(2) !! of a whole period [deg]
     logical, intent(inout) :: is_cut   !! these would be more than `most_turns`
 
     integer, parameter :: steps = 360, most_turns = 64
+    type(holding_force_t) :: others
     type(holding_sample_t) :: sample
-    real(wp) :: stiffness, moment, most
+    real(wp) :: stiffness, moment, most, press, reach(2)
     integer :: i
 
-    associate (linkage => holding%linkage)
-      if (load_period(linkage, period_of(linkage)) > 0.0_wp) return
-      stiffness = 0.0_wp
-      moment = 0.0_wp
-      do i = 1, size(linkage%loads)
-        associate (load => linkage%loads(i))
-          if (.not. counts_turns(load) .or. load%along%drive /= 1) cycle
-          stiffness = stiffness + load%stiffness
-          moment = moment + load%stiffness*load%rest
+    if (load_period(holding%linkage, period_of(holding%linkage)) > 0.0_wp) return
+    if (.not. any(counts_drive(holding%linkage%loads))) return
+    others = holding
+    where (counts_drive(others%linkage%loads)) others%linkage%loads%stiffness = 0.0_wp
+    most = 0.0_wp
+    do i = 0, steps - 1
+      sample = others%sample(ends(1) + (ends(2) - ends(1))*i/steps)
+      if (sample%is_known) most = max(most, abs(sample%force))
+    end do
+    associate (loads => holding%linkage%loads)
+      associate (is_spring => counts_drive(loads) .and. loads%side == 0)
+        stiffness = sum(loads%stiffness, mask=is_spring)
+        moment = sum(loads%stiffness*loads%rest, mask=is_spring)
+      end associate
+      reach = [huge(1.0_wp), -huge(1.0_wp)]
+      if (stiffness > 0.0_wp) reach = moment/stiffness + [-1.0_wp, 1.0_wp]*(1.1_wp*most/stiffness &
+        + 10.0_wp*degree)
+      do i = 1, size(loads)
+        associate (stop => loads(i))
+          if (.not. counts_drive(stop) .or. stop%side == 0) cycle
+          press = 1.1_wp*(most + abs(stiffness*stop%rest - moment))/stop%stiffness + 10.0_wp*degree
+          reach(1) = min(reach(1), stop%rest - merge(360.0_wp*degree, press, stop%side > 0))
+          reach(2) = max(reach(2), stop%rest + merge(press, 360.0_wp*degree, stop%side > 0))
         end associate
       end do
     end associate
-    if (.not. stiffness > 0.0_wp) return
-    most = 0.0_wp
-    do i = 0, steps - 1
-      sample = holding%sample(ends(1) + (ends(2) - ends(1))*i/steps)
-      if (sample%is_known) most = max(most, abs(sample%force - (stiffness*sample%crank*degree - &
-        moment)))
-    end do
-    ends = moment/stiffness + [-1.0_wp, 1.0_wp]*(1.1_wp*most/stiffness + 10.0_wp*degree)
-    ends = ends/degree
+    ends = reach/degree
     is_cut = is_cut .or. ends(2) - ends(1) > most_turns*360.0_wp
     if (ends(2) - ends(1) > most_turns*360.0_wp) ends = 0.5_wp*sum(ends) + &
       [-180.0_wp, 180.0_wp]*most_turns
   end subroutine extend_turns
+
+  !> Of a range that is less than a turn, the turn that the deck is about: with one of its positions
+  !! in it, or else that nearest to the rest of a load that counts turns.
+  pure subroutine choose_turn(linkage, positions, ends)
+    type(linkage_t), intent(in) :: linkage
+    real(wp), intent(in) :: positions(:) !! of the deck [deg]
+    real(wp), intent(inout) :: ends(2)   !! [deg]
+
+    real(wp) :: turns
+    integer :: i
+
+    if (linkage%drives(1)%kind /= drive_of_angle) return
+    if (.not. any(counts_drive(linkage%loads))) return
+    do i = 1, size(positions)
+      turns = floor((positions(i) - ends(1))/360.0_wp)
+      if (positions(i) - 360.0_wp*turns > ends(2)) cycle
+      ends = ends + 360.0_wp*turns
+      return
+    end do
+    i = findloc(counts_drive(linkage%loads), .true., dim=1)
+    ends = ends + 360.0_wp*anint((linkage%loads(i)%rest/degree - 0.5_wp*sum(ends))/360.0_wp)
+  end subroutine choose_turn
+
+  !> Whether a load is along the angle of the first drive, with its turns.
+  elemental function counts_drive(load) result(counts)
+    type(applied_load_t), intent(in) :: load
+    logical :: counts
+
+    counts = counts_turns(load) .and. load%along%drive == 1 .and. load%stiffness > 0.0_wp
+  end function counts_drive
 
 end module equilibrium_study

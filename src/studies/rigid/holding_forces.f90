@@ -1,10 +1,13 @@
 !> What the first drive would have to give to hold a linkage at rest.
 module holding_forces
   use applied_loads, only: spring_scale
+  use constants, only: degree
+  use coordinates, only: coordinate_rate
   use kinds, only: wp
   use lagrange, only: find_lagrange, lagrange_t
-  use linkages, only: linkage_t
+  use linkages, only: drive_of_angle, linkage_t
   use positions, only: find_state, state_t
+  use pulls, only: deflection
   use rigid_bodies, only: rigid_body_t
   implicit none (type, external)
   private
@@ -30,6 +33,7 @@ module holding_forces
     procedure :: sample_with_slope
     procedure :: find_zero
     procedure :: find_extremum
+    procedure :: smooth_distance
   end type holding_force_t
 
   integer, parameter :: most_halvings = 100
@@ -91,6 +95,34 @@ contains
     call self%find_terms(crank + small_step*distance, after, is_known(2))
     if (all(is_known)) found%slope = after%gravity + after%load - (before%gravity + before%load)
   end function sample_with_slope
+
+  !> How far the coordinate goes from a position until a contact of a stop, or of a spring of one
+  !! side, begins, ends, or is wholly pressed, about: so far the force is smooth [deg] or [m].
+  pure function smooth_distance(self, crank) result(distance)
+    class(holding_force_t), intent(in) :: self
+    real(wp), intent(in) :: crank !! coordinate of the first drive [deg] or [m]
+    real(wp) :: distance          !! huge without contacts
+
+    type(state_t) :: state
+    real(wp) :: depth, rate
+    integer :: i
+
+    distance = huge(distance)
+    if (all(self%linkage%loads%side == 0)) return
+    state%crank = crank
+    call find_state(self%linkage, state)
+    if (allocated(state%error)) return
+    do i = 1, size(self%linkage%loads)
+      associate (load => self%linkage%loads(i))
+        if (load%side == 0) cycle
+        depth = load%side*deflection(self%linkage, state%pose, load)
+        rate = abs(coordinate_rate(self%linkage, state%pose, state%coefficients, load%along))
+        if (self%linkage%drives(1)%kind == drive_of_angle) rate = rate*degree
+        depth = min(abs(depth), abs(depth - load%contact))
+        if (rate > 0.0_wp) distance = min(distance, depth/rate)
+      end associate
+    end do
+  end function smooth_distance
 
   !> Halves between two samples whose forces have different signs.
   pure subroutine find_zero(self, one, other, scale, crank, found)
