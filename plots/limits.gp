@@ -1,5 +1,5 @@
-# What a linkage that is no four-bar can do: ranges of its drive, swings of links, strokes of sliders, transmission and pressure
-# angles, as bars, with the positions of the drive at their ends.
+# What a linkage that is no four-bar can do: ranges of its drive, swings of links, strokes of sliders, coordinates, transmission and
+# pressure angles, as bars, with the positions of the drive at their ends.
 
 load keep("limits", table, "limits")
 n_rows = |$limits|
@@ -8,38 +8,40 @@ is_length(name) = strstrt(" deg 1 ", " ".name." ") == 0
 length_of_list = ""
 do for [k=1:words(length_unit)] { if (is_length(word(length_unit, k))) { length_of_list = word(length_unit, k) } }
 
-# A panel for each of: ranges, angles, places, and transmission with pressure.
-panel_of(row) = lesser(4, int(word(row, 1)))
-array in_panel[4]
-array first_of[4]
-array low_of[4]
-array high_of[4]
-do for [k=1:4] { in_panel[k] = 0; low_of[k] = 1e300; high_of[k] = -1e300 }
+# A panel for each of: ranges, angles, places, coordinates that are angles, those that are lengths, and transmission with pressure.
+panel_of(row) = lesser(6, int(word(row, 1)))
+array in_panel[6]
+array first_of[6]
+array low_of[6]
+array high_of[6]
+do for [k=1:6] { in_panel[k] = 0; low_of[k] = 1e300; high_of[k] = -1e300 }
 do for [k=1:n_rows] {
     p = panel_of($limits[k])
     in_panel[p] = in_panel[p] + 1
     if (in_panel[p] == 1) { first_of[p] = k }
     low_of[p] = lesser(low_of[p], word($limits[k], 3) + 0.0)
     high_of[p] = larger(high_of[p], word($limits[k], 4) + 0.0)
-    if (word($limits[k], 1) eq "4") { low_of[p] = lesser(low_of[p], 90); high_of[p] = larger(high_of[p], 90) }
+    if (word($limits[k], 1) eq "6") { low_of[p] = lesser(low_of[p], 90); high_of[p] = larger(high_of[p], 90) }
 }
-unit_of(p) = p == 1 ? unit_crank : p == 3 ? length_of_list : "deg"
+unit_of(p) = p == 1 ? unit_crank : p == 3 || p == 5 ? length_of_list : "deg"
 row_name(k) = word($limits[k], 1) eq "1" ? drive_subject : inside(word($limits[k], 2), name_length)
 title_of(p) = p == 1 ? drive_quantity(unit_crank) : p == 2 ? "angle of the link" : p == 3 ? "place on the line" \
-    : only_of(4) ? "transmission angle, best at 90°" : only_of(5) ? "pressure angle, best at 0" : "transmission angle, best at 90°; pressure angle, best at 0"
-only_of(kind) = (others = 0, sum [i_of=1:n_rows] (others = others + (panel_of($limits[i_of]) == 4 && word($limits[i_of], 1) + 0 != kind), 0), others == 0)
+    : p == 4 ? "angle" : p == 5 ? "length" : only_of(6) ? "transmission angle, best at 90°" : only_of(7) ? "pressure angle, best at 0" : "transmission angle, best at 90°; pressure angle, best at 0"
+only_of(kind) = (others = 0, sum [i_of=1:n_rows] (others = others + (panel_of($limits[i_of]) == 6 && word($limits[i_of], 1) + 0 != kind), 0), others == 0)
 
 drive_text(value) = minus(trimmed(sprintf("%.1f", abs(value) < 0.05 ? 0 : value)))
 trimmed(text) = strlen(text) > 2 && text[strlen(text) - 1 : *] eq ".0" ? text[1 : strlen(text) - 2] : text
 at_drive(value) = unit_crank eq "deg" ? drive_text(value)."°" : minus(sprintf("%.4g", abs(value) < 1e-9 ? 0 : value))
-end_text(row, which) = word(row, 1) eq "1" ? "stopped by ".word(row, which == 3 ? 2 : 9) : word(row, 1) eq "5" && which == 3 ? "" : at_drive(word(row, which + 2) + 0.0)
+end_text(row, which) = word(row, 1) eq "1" ? "stopped by ".word(row, which == 3 ? 2 : 9) : word(row, 1) eq "7" && which == 3 ? "" : at_drive(word(row, which + 2) + 0.0)
 beside(row) = word(row, 1) eq "2" ? "swings by ".minus(sprintf("%.4g°", word(row, 7) + 0.0)).ratio_text(row) \
     : word(row, 1) eq "3" ? "stroke ".sprintf("%.5g ", word(row, 7) + 0.0).length_of_list.ratio_text(row) \
-    : word(row, 1) eq "4" ? mixed("transmission ").sprintf("%.3g° to %.3g°", word(row, 3) + 0.0, word(row, 4) + 0.0) \
-    : word(row, 1) eq "5" ? mixed("pressure ")."at most ".sprintf("%.3g°", word(row, 4) + 0.0) : ""
-mixed(text) = only_of(4) || only_of(5) ? "" : text
+    : word(row, 1) eq "4" ? "span ".minus(sprintf("%.4g°", word(row, 7) + 0.0)).ratio_text(row) \
+    : word(row, 1) eq "5" ? "span ".sprintf("%.5g ", word(row, 7) + 0.0).length_of_list.ratio_text(row) \
+    : word(row, 1) eq "6" ? mixed("transmission ").sprintf("%.3g° to %.3g°", word(row, 3) + 0.0, word(row, 4) + 0.0) \
+    : word(row, 1) eq "7" ? mixed("pressure ")."at most ".sprintf("%.3g°", word(row, 4) + 0.0) : ""
+mixed(text) = only_of(6) || only_of(7) ? "" : text
 ratio_text(row) = word(row, 8) + 0 == 0 ? "" : sprintf(", time ratio %.3f", word(row, 8) + 0.0)
-bar_ink(kind) = word("#B4B4B4 #6699CC #99CC99 #FFCC66 #E39E6E", kind)
+bar_ink(kind) = word("#B4B4B4 #6699CC #99CC99 #9FC2E3 #C3E0C3 #FFCC66 #E39E6E", kind)
 
 headline = numbered(figure, "What the linkage can do")
 turning = system(ask(table, "turning")." | paste -s -d, - | sed 's/,/, /g'")
@@ -59,7 +61,7 @@ do for [k=1:n_rows] {
 }
 plot_width = 820
 height = 125
-do for [p=1:4] { if (in_panel[p] > 0) { height = height + row_height*(in_panel[p] + 0.6) + axis_height } }
+do for [p=1:6] { if (in_panel[p] > 0) { height = height + row_height*(in_panel[p] + 0.6) + axis_height } }
 foot_room = 31*lines_of_notes(note, remark) + (lines_of_notes(note, remark) > 0 ? 40 : 10)
 eval open_page(larger(name_room + plot_width + text_room, larger(text_width(headline, 23), text_width(note, 17)) + 60), height + foot_room)
 eval heading
@@ -71,7 +73,7 @@ set border 15 lw 1.5
 set lmargin at screen across(name_room)
 set rmargin at screen across(name_room + plot_width)
 top = 125
-do for [p=1:4] {
+do for [p=1:6] {
     if (in_panel[p] > 0) {
         panel_height = row_height*(in_panel[p] + 0.6)
         set tmargin at screen down(top)
@@ -79,7 +81,7 @@ do for [p=1:4] {
         # Room for the numbers at the ends.
         share = p == 1 ? 0.35 : 0.13
         way = high_of[p] > low_of[p] ? high_of[p] - low_of[p] : larger(1e-9, abs(high_of[p]))
-        a = low_of[p] - (only_of(5) && p == 4 ? 0.03 : share)*way
+        a = low_of[p] - (only_of(7) && p == 6 ? 0.03 : share)*way
         b = high_of[p] + share*way
         eval abscissa(a, b)
         set xlabel abscissa_title(title_of(p), unit_of(p), a, b) noenhanced offset 0, 0.4
@@ -98,7 +100,7 @@ do for [p=1:4] {
             set label tag + 2 end_text(row, 4) at first high, y left offset 0.6, 0 noenhanced font point_size(14) tc rgb "#404040" front
             set label 400 + tag beside(row) at screen across(name_room + plot_width + 16), first y left noenhanced font point_size(17)
         }
-        if (p == 4 && !only_of(5)) { set arrow 1 from first 90, graph 0 to first 90, graph 1 nohead lw 2 dt (10,6) lc rgb "#404040" back }
+        if (p == 6 && !only_of(7)) { set arrow 1 from first 90, graph 0 to first 90, graph 1 nohead lw 2 dt (10,6) lc rgb "#404040" back }
         plot [a:b] NaN notitle
         unset object
         unset arrow

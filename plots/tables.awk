@@ -36,9 +36,9 @@
 #                                  value (or ratio), rate and effort, whether its effort is not zero throughout
 #   want="reference"               the coordinate to which the ratios of ratios.dat refer
 #   want="limits"                  of linkage.dat of a linkage that is no four-bar: a line a range of the first drive (1), a link that swings
-#                                  (2), a slider (3), a transmission angle (4) and a pressure angle (5): that number, the name, the least and
-#                                  the greatest value, where the drive is then, swing or stroke and time ratio (0: none), the name of what stops the
-#                                  drive at its greatest value
+#                                  (2), a slider (3), a coordinate that is an angle (4) or a length (5), a transmission angle (6) and a pressure
+#                                  angle (7): that number, the name, the least and the greatest value, where the drive is then, swing, stroke or
+#                                  span and time ratio (0: none), the name of what stops the drive at its greatest value
 #   want="turning"                 of the same table: the links that turn fully
 #   want="wrong"                   what is no number in a column of numbers, or no name in one of names, once a column: the column, or - where
 #                                  every figure needs it, then the line and what is wrong there
@@ -269,10 +269,11 @@ asked[1] == "masses" && same($at["crank"], asked[2]) && same($at["speed"], asked
 
 asked[1] == "turning" && $at["quantity"] == "turns" { print $at["part"] }
 
-asked[1] == "limits" && $at["quantity"] ~ /_(from|angle|place|transmission|pressure)$/ {
-    kind = $at["quantity"] ~ /^range/ ? 1 : $at["quantity"] ~ /angle$/ ? 2 : $at["quantity"] ~ /place$/ ? 3 : $at["quantity"] ~ /mission$/ ? 4 : 5
+asked[1] == "limits" && $at["quantity"] ~ /_(from|angle|place|transmission|pressure|value)$/ {
+    kind = $at["quantity"] ~ /^range/ ? 1 : $at["quantity"] ~ /angle$/ ? 2 : $at["quantity"] ~ /place$/ ? 3 : $at["quantity"] ~ /mission$/ ? 6 \
+        : $at["quantity"] ~ /value$/ ? ($at["unit"] == "deg" ? 4 : 5) : 7
     is_least = $at["quantity"] ~ /^(least|range)/
-    if (is_least || kind == 5) {
+    if (is_least || kind == 7) {
         key_of[++shapes] = kind; link_at[shapes] = $at["part"]
         value[1, shapes] = value[2, shapes] = is_least ? $at["value"] : 0
         value[3, shapes] = value[4, shapes] = $at["crank"]
@@ -282,7 +283,7 @@ asked[1] == "limits" && $at["quantity"] ~ /_(from|angle|place|transmission|press
 
 asked[1] == "limits" && $at["quantity"] == "range_to" { value[2, shapes] = value[4, shapes] = $at["value"]; stops[shapes] = $at["part"] }
 
-asked[1] == "limits" && $at["quantity"] ~ /^(swing|stroke|time_ratio)$/ { value[$at["quantity"] == "time_ratio" ? 6 : 5, shapes] = $at["value"] }
+asked[1] == "limits" && $at["quantity"] ~ /^(swing|stroke|span|time_ratio)$/ { value[$at["quantity"] == "time_ratio" ? 6 : 5, shapes] = $at["value"] }
 
 asked[1] == "joints" && same($at["speed"], asked[2]) {
     if (!(($at["pin"], $at["link"]) in place)) {
@@ -434,10 +435,10 @@ function print_joints(    k, alike) {
 }
 
 function print_limits(    kind, i, k, line) {
-    for (kind = 1; kind <= 5; kind++)
+    for (kind = 1; kind <= 7; kind++)
         for (i = 1; i <= shapes; i++) {
-            # A link that keeps its angle swings by what rounding makes of it.
-            if (key_of[i] != kind || kind == 2 && value[5, i] < 1e-9) continue
+            # A link that keeps its angle swings by what rounding makes of it; what is constant has no bar.
+            if (key_of[i] != kind || kind == 2 && value[5, i] < 1e-9 || (kind == 4 || kind == 5) && value[5, i] + 0 == 0) continue
             line = kind " " link_at[i]
             for (k = 1; k <= 6; k++) line = line " " pointed(sprintf("%.12g", value[k, i]))
             print line, (kind == 1 ? stops[i] : "-")

@@ -8,7 +8,7 @@ module named_coordinates
   implicit none (type, external)
   private
 
-  public :: named_coordinate_t, find_named_coordinates, coordinate_number
+  public :: named_coordinate_t, find_named_coordinates, coordinate_number, limited_coordinates
   public :: of_spring, of_ram, of_slider, of_measure
 
   !> What a coordinate is of.
@@ -114,5 +114,19 @@ contains
     end do
     number = 0
   end function coordinate_number
+
+  !> Numbers of those whose least and greatest value is told of by their own names: springs,
+  !! dampers and measures. A ram has the range of its drive, a slider its stroke.
+  pure function limited_coordinates(model) result(numbers)
+    type(model_t), intent(in) :: model !! as read
+    integer, allocatable :: numbers(:) !! ascending
+
+    type(named_coordinate_t), allocatable :: list(:)
+    integer :: i
+
+    call find_named_coordinates(model, list)
+    numbers = pack([(i, i=1, size(list))], list%source == of_spring .or. &
+      list%source == of_measure)
+  end function limited_coordinates
 
 end module named_coordinates

@@ -4,8 +4,9 @@
 
 Four-bars, slider-cranks and six-bars with loads of many kinds and friction, over full turns.  Values with an error column (sizing,
 equilibrium) differ by the sum of both errors at most; all others (kinematics, pins, reactions, bearings, frame, drive, shaking,
-friction, holding, lagrange, balance, harmonics, linkage, coordinates, ratios) by 1e-10 of the largest of their kind.  Coordinates are
-compared with the pins and links of the same deck, too.  The last lines have, for every report, how many values there were, the largest difference, and of estimates the shares with a difference beyond 1, 0.1 and 0.01 of
+friction, holding, lagrange, balance, harmonics, coordinates, ratios) by 1e-10 of the largest of their kind.  Coordinates are
+compared with the pins and links of the same deck, too, their least and greatest values (linkage) with those of closed forms at many
+positions and between.  The last lines have, for every report, how many values there were, the largest difference, and of estimates the shares with a difference beyond 1, 0.1 and 0.01 of
 the estimate.  --smooth leaves out friction and loads against the motion: cases are five times faster, and all have an equilibrium.
 """
 import argparse
@@ -96,7 +97,7 @@ class Linkage:
 
     def reports(self):
         """Those that a deck may have."""
-        reports = ["kinematics", "pins", "reactions", "bearings", "frame about=0,0", "lagrange", "linkage", "balance",
+        reports = ["kinematics", "pins", "reactions", "bearings", "frame about=0,0", "lagrange", "linkage format=linkage", "balance",
                    "sizing fluctuation=0.05"]
         if self.kind == "four_bar":
             reports.remove("pins")
@@ -344,6 +345,97 @@ def compare_with_pins(comparison, linkage, tables):
             comparison.plain("coordinates by pins", f"{key} {field}", difference, 0.0, scales[k])
 
 
+def coordinate_functions(linkage):
+    """The coordinates of a plain deck as functions of the crank in degrees, in closed form, angles in degrees."""
+    def meeting(one, r, other, s):
+        """Where circles meet, to the left of the way from one centre to the other."""
+        size = math.dist(one, other)
+        x = (size**2 + r**2 - s**2)/(2*size)
+        y, u, v = math.sqrt(r**2 - x**2), (other[0] - one[0])/size, (other[1] - one[1])/size
+        return one[0] + x*u - y*v, one[1] + x*v + y*u
+
+    def on_line(point, rod, height):
+        return point[0] + math.sqrt(rod**2 - (height - point[1])**2), height
+
+    def places(crank):
+        """The last pin, and the ends of the link whose angle is measured."""
+        point = linkage.a*math.cos(math.radians(crank)), linkage.a*math.sin(math.radians(crank))
+        if linkage.kind == "slider_crank":
+            block = on_line(point, linkage.rod, linkage.offset)
+            return block, point, block
+        joint = meeting(point, linkage.b, (linkage.d, 0.0), linkage.c)
+        last = joint if linkage.kind == "four_bar" else on_line(joint, 3.5*linkage.c, 1.5*linkage.c)
+        return last, (linkage.d, 0.0), joint
+
+    def lean(crank):
+        _, one, other = places(crank)
+        return math.degrees(math.atan2(other[1] - one[1], other[0] - one[0]))
+
+    def of_last(function):
+        return lambda crank: function(*places(crank)[0], math.radians(crank))
+
+    functions = {"far": of_last(lambda x, y, _: math.hypot(x, y)), "lift": of_last(lambda x, y, _: WAY[0]*x + WAY[1]*y),
+                 "total": of_last(lambda x, y, _: 2*math.hypot(x, y) - 0.5*(WAY[0]*x + WAY[1]*y)),
+                 "ahead": of_last(lambda x, y, t: x*math.cos(t) + y*math.sin(t)),
+                 "aside": of_last(lambda x, y, t: y*math.cos(t) - x*math.sin(t)), "lean": lean, "bend": lambda crank: lean(crank) - crank}
+    if linkage.spring:
+        functions["coil"] = of_last(lambda x, y, _: math.dist((x, y), linkage.spring[2:]))
+    return functions
+
+
+def extremes_of(function, is_angle):
+    """The least and the greatest value over a turn, and how much it has changed by then: by golden sections about the samples."""
+    steps, golden = 1000, (math.sqrt(5) - 1)/2
+    near = function(0.0)
+
+    def followed(crank):
+        value = function(crank)
+        return value - 360*round((value - near)/360) if is_angle else value
+
+    values = []
+    for i in range(steps + 1):
+        values.append(followed(360*i/steps))
+        near = values[-1]
+    found = []
+    for sign in (1, -1):
+        i = min(range(steps + 1), key=lambda k: sign*values[k])
+        near, low, high = values[i], 360*(i - 1)/steps, 360*(i + 1)/steps
+        while high - low > 1e-7:
+            one, other = high - golden*(high - low), low + golden*(high - low)
+            low, high = (low, other) if sign*followed(one) < sign*followed(other) else (one, high)
+        found.append(followed((low + high)/2))
+    return found[0], found[1], values[-1] - values[0]
+
+
+def compare_extremes(comparison, linkage, look, one, other):
+    """Least and greatest values of coordinates, of the plain deck against closed forms, and of both."""
+    rows, others = ({(plain_name(how, row["part"]), row["quantity"]): row for row in table.rows}
+                    for how, table in ((Look(), one), (look, other)))
+    number = 0
+    for name, function in coordinate_functions(linkage).items():
+        is_angle = name in ANGULAR
+        least, greatest, turned = extremes_of(function, is_angle)
+        scale = 180.0 if is_angle else max(abs(least), abs(greatest))
+        if is_angle and abs(turned) > 180:
+            for given in (rows, others):
+                comparison.plain("linkage", f"{name} gain", given[name, "gain"]["value"], turned, 360)
+            continue
+        number += 1
+        for quantity, value in (("least_value", least), ("greatest_value", greatest), ("span", greatest - least)):
+            row, again = rows[name, quantity], others[name, quantity]
+            difference = row["value"] - value
+            if is_angle and quantity != "span":
+                difference = (difference + 180) % 360 - 180
+            comparison.plain("linkage", f"{name} {quantity}", difference, 0.0, scale)
+            if quantity == "span":
+                comparison.plain("linkage", f"{name} {quantity}", value, again["value"]*(1e-3 if again["unit"] == "mm" else 1), scale)
+                continue
+            difference = function(row["crank"]) - row["value"]
+            comparison.plain("linkage", f"{name} at {quantity}", (difference + 180) % 360 - 180 if is_angle else difference, 0.0, scale)
+    if sum(quantity == "span" for _, quantity in rows) != number:
+        comparison.wrong.append("linkage: rows of coordinates")
+
+
 def distance_of(x, v, a):
     """The distance from the origin, its rate and acceleration."""
     size = math.hypot(*x)
@@ -432,6 +524,7 @@ def check(linkage, seed, program, folder, comparison):
             compare_coordinates(comparison, name, look, table, other)
         elif name in ("kinematics", "pins", "reactions", "bearings", "frame", "drive", "shaking", "friction", "lagrange", "balance"):
             compare_plain(comparison, name, look, table, other)
+    compare_extremes(comparison, linkage, look, tables[0]["linkage"], tables[1]["linkage"])
     if linkage.kind != "four_bar" and not tables[0]["coordinates"].failed:
         compare_with_pins(comparison, linkage, tables[0])
 

@@ -1,11 +1,11 @@
 !> `linkage.dat` of linkages that are no four-bars: ranges of the drives, dead points, swings,
-!! strokes, time ratios, transmission and pressure angles, a row each.
+!! strokes, time ratios, transmission and pressure angles, extremes of coordinates, a row each.
 module limits_report
   use drive_cards, only: moves_along
   use drive_positions, only: shown_crank
   use kinds, only: wp
   use limits_study, only: angle_of_body, crank_range_t, drive_range_t, place_of_slider, &
-    quantity_t, time_ratio, transmission_of_dyad, transmission_of_lines
+    quantity_t, time_ratio, transmission_of_dyad, transmission_of_lines, value_of_coordinate
   use limits_words, only: limits_names, limits_notes
   use report_kinds, only: other_linkages, report_kind_t
   use report_types, only: add_table, report_record_t, table_plan_t, whole_table_t
@@ -26,6 +26,14 @@ module limits_report
     procedure, nopass :: plan => plan_limits
     procedure, nopass :: add_all => add_limits
   end type limits_table_t
+
+  !> What a row is about: a link, a pin, or a coordinate, by its number.
+  type :: part_t
+    integer :: link = 0
+    integer :: pin = 0
+    integer :: line = 0       !! link along which the pin slides: part of the name
+    integer :: coordinate = 0 !! number in the mechanism's list
+  end type part_t
 
 contains
 
@@ -105,15 +113,15 @@ contains
     type(rows_t), intent(inout) :: rows
 
     real(wp) :: ends(2)
-    integer :: part
+    type(part_t) :: part
     logical :: along
 
     along = moves_along(variant%model%drives(further%drive)%kind)
     ends = [further%range%from, further%range%to]
     if (along) ends = from_si(ends, table_factor("length", variant%model%outputs))
     associate (linkage => variant%mechanism%linkage)
-      part = linkage%drives(further%drive)%body
-      if (part == 0) part = -linkage%sliders(linkage%drives(further%drive)%slider)%pin
+      part%link = linkage%drives(further%drive)%body
+      if (part%link == 0) part%pin = linkage%sliders(linkage%drives(further%drive)%slider)%pin
     end associate
     call put(variant, layout, rows, part, "drive_from", further%crank(1), ends(1), is_place=along)
     call put(variant, layout, rows, part, "drive_to", further%crank(2), ends(2), is_place=along)
@@ -131,16 +139,20 @@ contains
 
     associate (found => variant%found%limits, x => variant%found%limits%extremes(q, r), &
         quantity => variant%found%limits%quantities(q))
+      if (abs(x%turned) > 0.0_wp) then
+        if (quantity%kind == value_of_coordinate) then
+          call put_value("gain", 0.0_wp, x%turned)
+        else
+          call put(variant, layout, rows, part_of(variant, quantity), "turns", 0.0_wp, &
+            x%turned/360.0_wp, pure_number=.true.)
+        end if
+        return
+      end if
       ratio = 0.0_wp
       least = ""
       swing = ""
       select case (quantity%kind)
       case (angle_of_body)
-        if (abs(x%turned) > 0.0_wp) then
-          call put(variant, layout, rows, part_of(variant, quantity), "turns", 0.0_wp, &
-            x%turned/360.0_wp, pure_number=.true.)
-          return
-        end if
         least = "least_angle"
         greatest = "greatest_angle"
         swing = "swing"
@@ -150,14 +162,19 @@ contains
         greatest = "greatest_place"
         swing = "stroke"
         ratio = time_ratio(found%ranges(r), x)
+      case (value_of_coordinate)
+        least = "least_value"
+        greatest = "greatest_value"
+        swing = "span"
+        ratio = time_ratio(found%ranges(r), x)
       case (transmission_of_dyad, transmission_of_lines)
         least = "least_transmission"
         greatest = "greatest_transmission"
       case default
         greatest = "greatest_pressure"
       end select
-      ! A constant has no limits.
-      if (swing /= "" .and. .not. x%greatest > x%least) then
+      ! A constant place or angle has no limits.
+      if (swing /= "" .and. swing /= "span" .and. .not. x%greatest > x%least) then
         call put_value(trim(swing), x%at_least, 0.0_wp)
         return
       end if
@@ -165,7 +182,7 @@ contains
       call put_value(trim(greatest), x%at_greatest, x%greatest)
       if (swing /= "") call put_value(trim(swing), x%at_greatest, x%greatest - x%least)
       if (ratio > 0.0_wp) call put(variant, layout, rows, part_of(variant, quantity), &
-        "time_ratio", x%at_greatest, ratio, pure_number=.true., along=line_of(variant, quantity))
+        "time_ratio", x%at_greatest, ratio, pure_number=.true.)
     end associate
 
   contains
@@ -176,8 +193,7 @@ contains
 
       associate (quantity => variant%found%limits%quantities(q))
         call put(variant, layout, rows, part_of(variant, quantity), word, crank, shown(variant, &
-          quantity, value), is_place=quantity%kind == place_of_slider, &
-          along=line_of(variant, quantity))
+          quantity, value), is_place=is_length(variant, quantity))
       end associate
     end subroutine put_value
 
@@ -191,95 +207,102 @@ contains
     real(wp) :: converted
 
     converted = value
-    if (quantity%kind == place_of_slider) converted = from_si(value, table_factor("length", &
+    if (is_length(variant, quantity)) converted = from_si(value, table_factor("length", &
       variant%model%outputs))
   end function shown
 
-  !> The link, or the pin, that a quantity is of.
-  pure function part_of(variant, quantity) result(number)
+  !> Whether a quantity is a length; else an angle.
+  pure function is_length(variant, quantity)
     type(variant_results_t), intent(in) :: variant
     type(quantity_t), intent(in) :: quantity
-    integer :: number !! of the link, or minus that of the pin
+    logical :: is_length
 
-    select case (quantity%kind)
-    case (angle_of_body)
-      number = quantity%number
-    case (place_of_slider)
-      number = -variant%mechanism%linkage%sliders(quantity%number)%pin
-    case (transmission_of_lines)
-      number = -variant%mechanism%linkage%groups(quantity%number)%pins(1)
-    case default
-      number = -variant%mechanism%linkage%groups(quantity%number)%middle
-    end select
+    is_length = quantity%kind == place_of_slider
+    if (quantity%kind == value_of_coordinate) is_length = .not. &
+      variant%mechanism%coordinates(quantity%number)%is_angle
+  end function is_length
+
+  !> What a quantity is of.
+  pure function part_of(variant, quantity) result(part)
+    type(variant_results_t), intent(in) :: variant
+    type(quantity_t), intent(in) :: quantity
+    type(part_t) :: part
+
+    associate (linkage => variant%mechanism%linkage, number => quantity%number)
+      select case (quantity%kind)
+      case (angle_of_body)
+        part%link = number
+      case (place_of_slider)
+        part%pin = linkage%sliders(number)%pin
+        part%line = linkage%sliders(number)%body
+      case (value_of_coordinate)
+        part%coordinate = number
+      case (transmission_of_lines)
+        part%pin = linkage%groups(number)%pins(1)
+      case default
+        part%pin = linkage%groups(number)%middle
+      end select
+    end associate
   end function part_of
 
-  !> The link along which a slider has its place; 0 of a guide, and of all other quantities.
-  pure function line_of(variant, quantity) result(body)
-    type(variant_results_t), intent(in) :: variant
-    type(quantity_t), intent(in) :: quantity
-    integer :: body
-
-    body = 0
-    if (quantity%kind == place_of_slider) body = variant%mechanism%linkage%sliders( &
-      quantity%number)%body
-  end function line_of
-
   !> What ends a range: the pin of a block that leaves its link, or a part of a group.
-  pure function part_at_end(variant, range, end) result(number)
+  pure function part_at_end(variant, range, end) result(part)
     type(variant_results_t), intent(in) :: variant
     type(crank_range_t), intent(in) :: range
     integer, intent(in) :: end !! 1: from, 2: to
-    integer :: number          !! of the link, or minus that of the pin
+    type(part_t) :: part
 
-    number = -range%left_at(end)
-    if (number == 0) number = part_of_group(variant, range%blocked_by(end))
+    part%pin = range%left_at(end)
+    if (part%pin == 0) part = part_of_group(variant, range%blocked_by(end))
   end function part_at_end
 
   !> The pin of a dyad, or a link of another group; the first link without one.
-  pure function part_of_group(variant, group) result(number)
+  pure function part_of_group(variant, group) result(part)
     type(variant_results_t), intent(in) :: variant
     integer, intent(in) :: group
-    integer :: number !! of the link, or minus that of the pin
+    type(part_t) :: part
 
-    number = 1
+    part%link = 1
     if (group == 0) return
     associate (it => variant%mechanism%linkage%groups(group))
       if (it%middle > 0) then
-        number = -it%middle
+        part = part_t(pin=it%middle)
       else if (it%body(1) > 0) then
-        number = it%body(1)
+        part%link = it%body(1)
       else if (allocated(it%bodies)) then
-        if (size(it%bodies) > 0) number = it%bodies(1)
+        if (size(it%bodies) > 0) part%link = it%bodies(1)
       end if
     end associate
   end function part_of_group
 
   !> Appends a row.
   subroutine put(variant, layout, rows, part, quantity, crank, value, is_place, pure_number, &
-    of_drive, along)
+    of_drive)
     type(variant_results_t), intent(in) :: variant
     type(table_layout_t), intent(in) :: layout
     type(rows_t), intent(inout) :: rows
-    integer, intent(in) :: part
+    type(part_t), intent(in) :: part
     character(len=*), intent(in) :: quantity
     real(wp), intent(in) :: crank, value
     logical, intent(in), optional :: is_place, pure_number, of_drive
-    integer, intent(in), optional :: along !! link along which the pin slides: part of the name
 
     character(len=column_width(layout, 1)) :: part_cell
     character(len=column_width(layout, 5)) :: unit_cell
     type(unit_t) :: length
     logical :: in_length
 
-    if (part > 0) then
-      part_cell = name_cell(variant%mechanism%names(part)%text, column_width(layout, 1))
-    else
-      part_cell = name_cell(variant%mechanism%pin_names(-part)%text, column_width(layout, 1))
-    end if
-    if (present(along)) then
-      if (along > 0) part_cell = name_cell(variant%mechanism%pin_names(-part)%text//":"// &
-        variant%mechanism%names(along)%text, column_width(layout, 1))
-    end if
+    associate (mechanism => variant%mechanism, width => column_width(layout, 1))
+      if (part%coordinate > 0) then
+        part_cell = name_cell(mechanism%coordinates(part%coordinate)%name, width)
+      else if (part%link > 0) then
+        part_cell = name_cell(mechanism%names(part%link)%text, width)
+      else if (part%line > 0) then
+        part_cell = name_cell(mechanism%pin_names(part%pin)%text//":"//mechanism%names( &
+          part%line)%text, width)
+      else
+        part_cell = name_cell(mechanism%pin_names(part%pin)%text, width)
+      end if
+    end associate
     in_length = .false.
     if (present(is_place)) in_length = is_place
     if (present(of_drive)) in_length = moves_along(variant%model%drives(1)%kind)

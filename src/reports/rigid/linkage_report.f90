@@ -67,6 +67,8 @@ contains
       "follower_limit: crank and coupler in line, the follower turns back; "// &
       "change_point: all links in line, the branches meet")
     call append_string(notes, angle_note(variant))
+    if (size(variant%model%measures) > 0) call append_string(notes, "least and greatest values "// &
+      "of measures, springs and dampers: REPORT linkage format=linkage")
   end subroutine linkage_remarks
 
   !> The words in the columns `branch` and `event`.

@@ -5,6 +5,7 @@ module limits_words
   use kinds, only: wp
   use limits_study, only: crank_range_t
   use linkage_notes, only: notes_on_linkage
+  use named_coordinates, only: limited_coordinates
   use plan_words, only: group_words
   use table_columns, only: name_list_t, table_unit
   use text, only: append_string, string_t, to_string, trimmed_list
@@ -19,7 +20,8 @@ module limits_words
     "range_to", "drive_from", "drive_to", "change_point", "dead_point", &
     "least_determinant", &
     "turns", "least_angle", "greatest_angle", "swing", "least_place", "greatest_place", "stroke", &
-    "time_ratio", "least_transmission", "greatest_transmission", "greatest_pressure"]
+    "time_ratio", "least_transmission", "greatest_transmission", "greatest_pressure", &
+    "least_value", "greatest_value", "span", "gain"]
 
 contains
 
@@ -42,6 +44,10 @@ contains
       "a dyad at their pin, best at 90 deg, or between two lines that place a pin; pressure: "// &
       "between a rod and the guide of its pin, or between force and motion of a lever at its "// &
       "block, best at 0")
+    if (size(limited_coordinates(variant%model)) > 0) call append_string(notes, "least_value, "// &
+      "greatest_value: of springs, dampers and measures, as in REPORT coordinates, but that "// &
+      "angles go on past half turns; span: greatest less least value; gain: of an angle that "// &
+      "does not return, a period")
   end subroutine limits_notes
 
   !> Where the first drive ends, and at dead points inside its range, the group that ends it there.
@@ -136,6 +142,10 @@ contains
           sliders(i)%body)%text)
       end do
     end associate
+    do i = 1, size(variant%mechanism%coordinates)
+      if (any(limited_coordinates(variant%model) == i)) call append_string(lists(1)%names, &
+        variant%mechanism%coordinates(i)%name)
+    end do
     lists(2)%column = "quantity"
     lists(2)%names = trimmed_list(quantity_words)
     length = table_unit("length", variant%model%outputs)

@@ -17,6 +17,7 @@ module rigid_studies
   use lagrange_study, only: find_lagrange_terms
   use limits_study, only: find_branches, find_limits
   use models, only: balances, has_law, is_of_four_bar, model_t, report_number, report_with
+  use named_coordinates, only: limited_coordinates
   use named_parts, only: name_outcomes
   use points_study, only: find_points
   use position_loads, only: elastic_division_t, fail_everywhere, find_division, take_failures
@@ -178,7 +179,7 @@ contains
     end associate
   end subroutine compute_harmonics
 
-  !> As of four-bars on both branches, else on the one that the deck has.
+  !> As of four-bars on both branches, else on the one that the deck has, of coordinates too.
   subroutine compute_limits(run)
     type(variant_run_t), intent(inout), target :: run
 
@@ -187,7 +188,8 @@ contains
       if (is_of_four_bar(model, "linkage")) then
         call find_branches(mechanism%linkage, mechanism%four_bar, found%branches)
       else
-        call find_limits(mechanism%linkage, positions_of_deck(model), found%limits)
+        call find_limits(mechanism%linkage, positions_of_deck(model), found%limits, &
+          limited_coordinates(model))
       end if
     end associate
   end subroutine compute_limits

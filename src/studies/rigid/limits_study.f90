@@ -1,15 +1,17 @@
 !> What a linkage can do: ranges of its drives, dead points, swings of its links, strokes of its
-!! sliders, time ratios, transmission and pressure angles; of a four-bar in closed form on both
-!! branches, whichever of them it is on.
+!! sliders, time ratios, transmission and pressure angles, extremes of coordinates; of a four-bar in
+!! closed form on both branches, whichever of them it is on.
 module limits_study
   use branch_ranges, only: branch_range_t, find_branch_ranges
-  use crank_extremes, only: angle_of_body, extremes_t, find_extremes, place_of_slider, &
-    pressure_of_lever, pressure_of_slider, quantity_t, transmission_of_dyad, transmission_of_lines
+  use crank_extremes, only: extremes_t, find_extremes
   use crank_limits, only: crank_range_t, find_ranges, find_ranges_of_deck
   use dead_points, only: find_low_points
   use four_bar_loops, only: four_bar_t
   use group_equations, only: drive_value, line_offset
   use kinds, only: wp
+  use limited_quantities, only: angle_of_body, place_of_slider, pressure_of_lever, &
+    pressure_of_slider, quantity_t, transmission_of_dyad, transmission_of_lines, &
+    value_of_coordinate
   use linkage_paths, only: has_iterations, leave_path
   use low_points, only: low_point_t
   use linkages, only: drive_of_angle, group_by_newton, group_cross_slide, group_driven_dyad, &
@@ -23,7 +25,7 @@ module limits_study
   public :: limits_result_t, crank_range_t, drive_range_t, low_points_t, find_limits, time_ratio, &
     everywhere, branches_t, branch_result_t, find_branches, event_names, special_position_t
   public :: quantity_t, angle_of_body, place_of_slider, pressure_of_lever, pressure_of_slider, &
-    transmission_of_dyad, transmission_of_lines
+    transmission_of_dyad, transmission_of_lines, value_of_coordinate
 
   !> What a range has inside.
   type :: low_points_t
@@ -63,20 +65,24 @@ module limits_study
 contains
 
   !> Finds all ranges, and the extremes in them.
-  pure subroutine find_limits(linkage, positions, found)
+  pure subroutine find_limits(linkage, positions, found, coordinates)
     type(linkage_t), intent(in) :: linkage      !! of any kind, with its path
     real(wp), intent(in) :: positions(:)        !! of the first drive in the deck [deg] or [m]; of a
                                                 !! driven length ranges are looked for from there,
                                                 !! without any everywhere
     type(limits_result_t), intent(out) :: found !! over all ranges
+    integer, intent(in), optional :: coordinates(:) !! numbers of those whose extremes are wanted,
+                                                !! besides links, sliders and groups
 
     real(wp), allocatable :: inside(:)
-    integer :: r
+    integer :: i, r
 
     inside = positions
     if (size(inside) == 0) inside = everywhere(linkage)
     call find_ranges_of_deck(linkage, inside, positions, found%ranges)
     call list_quantities(linkage, found%quantities)
+    if (present(coordinates)) found%quantities = [found%quantities, &
+      (quantity_t(value_of_coordinate, coordinates(i)), i=1, size(coordinates))]
     call find_further_ranges(linkage, inside(1), found)
     allocate (found%extremes(size(found%quantities), size(found%ranges)), &
       found%low(size(found%ranges)))
