@@ -408,7 +408,7 @@ no_four_bar() {
 
 # cycle_table: a table of such a linkage with its positions.
 cycle_table() {
-    for table in pins.dat kinematics.dat drives.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat bearings.dat frame.dat friction.dat; do
+    for table in pins.dat kinematics.dat drives.dat drive.dat reactions.dat points.dat lagrange.dat balance.dat bearings.dat frame.dat friction.dat coordinates.dat; do
         if [ -f $table ]; then
             echo $table
             return

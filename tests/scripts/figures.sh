@@ -485,7 +485,8 @@ REPORT coordinates ratio_to=vane
 END_OF_DECK
   sed 's/ratio_to=vane/columns=rate/' "$scratch/vane.deck" >"$scratch/rates.deck"
   run 0 --quiet --out "$scratch/out" "$scratch/vane.deck" "$scratch/rates.deck" || return 1
-  drawn vane figures coordinates_speed_10 coordinates_speed_20 ratios && drawn rates figures coordinates_speed_10 coordinates_speed_20
+  both="coordinates_speed_10 coordinates_speed_20 linkage linkage_positions"
+  drawn vane figures $both ratios && drawn rates figures $both
 }
 
 # Linkages that are no four-bars: a slider on a link and one on a guide; a driven slider, which goes to and fro; a row that fails.
