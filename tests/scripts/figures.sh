@@ -486,7 +486,12 @@ END_OF_DECK
   sed 's/ratio_to=vane/columns=rate/' "$scratch/vane.deck" >"$scratch/rates.deck"
   run 0 --quiet --out "$scratch/out" "$scratch/vane.deck" "$scratch/rates.deck" || return 1
   both="coordinates_speed_10 coordinates_speed_20 linkage linkage_positions"
-  drawn vane figures $both ratios && drawn rates figures $both
+  drawn vane figures $both ratios && drawn rates figures $both || return 1
+  # Of variants the summary, of one of them all else.
+  run 0 --quiet --out "$scratch/out" inputs/ackermann.deck || return 1
+  drawn ackermann figures summary_by_meet || return 1
+  run 0 --quiet --set meet=0.7 --out "$scratch/one" inputs/ackermann.deck || return 1
+  drawn ../one/ackermann figures coordinates limits linkage linkage_positions
 }
 
 # Linkages that are no four-bars: a slider on a link and one on a guide; a driven slider, which goes to and fro; a row that fails.
