@@ -9,6 +9,9 @@ is_force(k) = system(rows_told(sprintf("!/^#/ && $2 == \"%s\" && $4 == \"peak_fo
 unit_in(k, quantity) = system(rows_told(sprintf("!/^#/ && $2 == \"%s\" && $3 == \"-\" && $4 == \"%s\" { print $6; exit }", \
     word(drive_names, k), quantity), table))
 sized(k) = is_force(k) ? "force" : "torque"
+# The first drive of a deck whose motor has a gear, which has rows of its own.
+geared = system(rows_told("!/^#/ && $2 == \"motor\" && $3 == \"-\" { print 1; exit }", table)) eq "1"
+gear_words(k) = geared && k == 1 ? " behind gear" : ""
 headline = "Torque against speed of the drives over the cycle"
 note = "curve: at the positions of drives.dat; bars: peak, rms (with both signs) and mean over the whole cycle"
 
@@ -28,7 +31,8 @@ x = "$1"
 low_rate = 0.0
 high_rate = 0.0
 do for [k=1:n_drives] {
-    panel = panel_of(n_drives > 1 ? sized(k)." of ".inside(word(drive_names, k), 14) : is_force(k) ? "driving force" : "driving torque", \
+    panel = panel_of((n_drives > 1 ? sized(k)." of ".inside(word(drive_names, k), 14) : is_force(k) ? "driving force" : "driving torque").\
+        gear_words(k), \
         unit_in(k, "peak_".sized(k)), "$2 $2 $2 $2", "'over the cycle' peak rms mean")
     stats source_of(1) using 1 name "rates" nooutput
     low_rate = lesser(low_rate, 1.2*rates_min)

@@ -1,4 +1,4 @@
-# A motion from its start (figure.gp): angular velocities, torque of the motor and energies against time; positions too, unless all
+# A motion from its start (figure.gp): angular velocities, torque of the motor, or behind its gear, and energies against time; positions too, unless all
 # there is to see is that the drive turns.
 
 headline = "Motion of the linkage under its motor and loads"
@@ -17,6 +17,12 @@ fields_of(kind, unit, k) = k > words(coordinates) ? "" : (own_unit(kind, k) ne u
     fields_of(kind, unit, k + 1)
 titles_by(kind, unit, k) = k > words(coordinates) ? "" : (own_unit(kind, k) ne unit ? "" : " \"".short_name(coordinates, k)."\"").\
     titles_by(kind, unit, k + 1)
+
+# Behind a gear the torque is not that of the motor, which has a panel of its own if the table has it.
+geared = system("grep -c '^# *torque: of the motor.* behind its gear' ".quoted(table)) + 0
+torque_panel(what, unit) = !geared ? panel_of("motor ".what, unit, fields("torque"), "motor") \
+    : panel_of(what." behind gear", unit, fields("torque"), "'on the drive'") + (exists("unit_motor_torque") \
+    ? panel_of(what." of the motor", mixed ? unit : unit_motor_torque, fields("motor_torque"), "'before its gear'") : 0)
 
 if (of_cycle) {
     of_one = words(coordinates) == 1
@@ -37,12 +43,12 @@ if (of_cycle) {
         }
     }
     unit_of_torque = !mixed ? unit_torque : \
-        system("sed -n 's/^# *torque: of the motor on the first drive in \\([^;]*\\);.*/\\1/p' ".quoted(table))
-    added = panel_of(own_unit("position", 1) eq "deg" ? "motor torque" : "motor force", unit_of_torque, fields("torque"), "motor")
+        system("sed -n 's/^# *torque: of the motor on the first drive in \\([^;,]*\\)[;,].*/\\1/p' ".quoted(table))
+    added = torque_panel(own_unit("position", 1) eq "deg" ? "torque" : "force", unit_of_torque)
 } else {
     if (high_crank - low_crank <= 360) { added = panel_of("crank angle θ₂", unit_crank, fields("crank"), "crank") }
     added = panel_of("angular velocity", unit_omega2, fields("omega2 omega4"), "'crank ω₂' 'follower ω₄'")
-    added = panel_of("motor torque", unit_torque, fields("torque"), "motor")
+    added = torque_panel("torque", unit_torque)
 }
 added = panel_of("energy", unit_kinetic, energy_curve("kinetic").energy_curve("potential").fields("work"), \
     energy_title("kinetic").energy_title("potential")." work")

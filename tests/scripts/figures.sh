@@ -530,6 +530,10 @@ END_OF_DECK
   drawn driven figures motion && drawn driven animations motion && gif driven/animations/motion.gif 31 || return 1
   drawn falling figures motion && drawn falling animations motion && gif falling/animations/motion.gif 26 || return 1
   drawn ranges figures limits || return 1
+  sed 's/^REPORT *motion.*/REPORT motion crank=20 end=0.1 step=0.01 columns=motor\nREPORT drives\nCRANK 0 to 360 step 30/' inputs/geared_motor.deck \
+    >"$scratch/geared.deck"
+  run 0 --quiet --out "$scratch/out" "$scratch/geared.deck" || return 1
+  drawn geared figures drive_forces drive_locus linkage linkage_positions motion shaking_force || return 1
   drawn pins figures kinematics_accelerations kinematics_angles kinematics_velocities pin_motion
 }
 

@@ -95,13 +95,14 @@ contains
         four_bar => is_of_four_bar(variant%model, "motion"), motion => variant%found%motion)
       if (four_bar) then
         call append_string(notes, crank_note(variant))
-        call append_string(notes, "torque: of the motor; "//potential_note)
+        call append_string(notes, torque_words(variant%model%motor, "of the motor", &
+          "of the motor on the crank")//"; "//potential_note)
         call append_string(notes, work_note//"; closure: the gap of the loop")
       else
         call append_coordinate_notes(variant%model, notes)
         call append_string(notes, work_note)
       end if
-      call append_gear_notes(variant%model%motor, notes)
+      call append_gear_notes(variant%model%motor, asked%with_motor, notes)
       if (asked%with_motor) call append_string(notes, motor_note)
       if (asked%with_power) call append_string(notes, power_note)
       if (four_bar .and. asked%with_forces) call append_string(notes, forces_note)
@@ -138,19 +139,44 @@ contains
       if (moves_along(model%drives(1)%kind)) of_motor = table_unit("force", model%outputs)
       line = " in "//of_motor%name
     end if
-    call append_string(notes, "torque: of the motor on the first drive"//line//"; "// &
-      potential_note)
+    line = "of the motor on the first drive"//line
+    call append_string(notes, torque_words(model%motor, line, line)//"; "//potential_note)
   end subroutine append_coordinate_notes
 
-  !> What torque and energies are, if the motor has a gear or a rotor.
-  pure subroutine append_gear_notes(motor, notes)
-    type(motor_t), intent(in) :: motor                     !! of the deck
-    type(string_t), allocatable, intent(inout) :: notes(:) !! to which a line is added
+  !> `torque: of the motor on the crank, behind its gear and less what turns its rotor`
+  pure function torque_words(motor, directly, geared) result(words)
+    type(motor_t), intent(in) :: motor           !! of the deck
+    character(len=*), intent(in) :: directly     !! whose torque it is
+    character(len=*), intent(in) :: geared       !! whose with a gear or a rotor
+    character(len=:), allocatable :: words
 
-    if (is_geared(motor)) call append_string(notes, "torque: through the gear on the driven "// &
-      "link, less what turns the rotor; kinetic: with that of the rotor; work: less what the "// &
-      "gear takes")
+    words = "torque: "//directly
+    if (.not. is_geared(motor)) return
+    words = "torque: "//geared//","
+    if (has_gear(motor)) words = words//" behind its gear"
+    if (has_gear(motor) .and. motor%rotor > 0.0_wp) words = words//" and"
+    if (motor%rotor > 0.0_wp) words = words//" less what turns its rotor"
+  end function torque_words
+
+  !> Where the energies of a rotor and of a gear are, and the torque of the motor itself.
+  pure subroutine append_gear_notes(motor, with_motor, notes)
+    type(motor_t), intent(in) :: motor                     !! of the deck
+    logical, intent(in) :: with_motor                      !! the table has its own torque
+    type(string_t), allocatable, intent(inout) :: notes(:) !! to which lines are added
+
+    if (.not. is_geared(motor)) return
+    call append_string(notes, "kinetic: with that of the rotor; work: less what the gear takes")
+    if (.not. with_motor) call append_string(notes, "torque and speed at the shaft of the "// &
+      "motor: REPORT motion columns=motor")
   end subroutine append_gear_notes
+
+  !> Whether the motor turns otherwise than the driven link, or loses power on the way to it.
+  pure function has_gear(motor) result(has)
+    type(motor_t), intent(in) :: motor !! of the deck
+    logical :: has
+
+    has = abs(motor%ratio - 1.0_wp) > 0.0_wp .or. motor%efficiency < 1.0_wp
+  end function has_gear
 
   !> What the head of a table says of implicit steps, if there are some.
   pure function implicit_words(steps) result(words)
