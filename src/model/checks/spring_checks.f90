@@ -169,7 +169,7 @@ contains
         if (any(model%drives%link == i) .and. .not. model%links(i)%has_length .and. &
           size(model%links(i)%lengths) == 0) cycle
         call add_error(diagnostics, other, "both ends are on link '"//model%links(i)%name%text// &
-          "', which is rigid: nothing moves between them", model%links(i)%name, &
+          "', which counts as rigid here: nothing moves between them", model%links(i)%name, &
           "the link is here")
         return
       end do
