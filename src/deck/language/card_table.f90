@@ -148,7 +148,7 @@ module card_table
     card_kind_t("MEASURE", least=3, most=many, &
       pattern="MEASURE name distance|angle|along|across|travel|sum ...", &
       choices="distance angle along across travel sum", &
-      help="a distance, an angle or a place by name, for REPORT coordinates"), &
+      help="a distance, an angle or a place by name, for REPORT coordinates and linkage"), &
     card_kind_t("MEASURE", "distance", least=4, most=4, pattern="MEASURE name distance pin pin", &
       help="between two pins or points"), &
     card_kind_t("MEASURE", "angle", least=3, most=5, &

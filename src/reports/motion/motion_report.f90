@@ -38,7 +38,8 @@ module motion_report
   !> Dead points and change points passed that the log lists at most.
   integer, parameter :: most_listed = 200
 
-  character(len=*), parameter :: line_feed = achar(10), default = "speed=0 pins=no", &
+  character(len=*), parameter :: line_feed = achar(10), &
+    default = "speed=0 pins=no coordinates=no", &
     pattern = "REPORT motion crank= [speed=0] end= step= [columns=accelerations,forces,"// &
     "power,motor] [pins=no|yes] [coordinates=no|yes] [change_points=stop|through] [format=]"
 
@@ -69,8 +70,8 @@ contains
   subroutine describe_linkage_motion(report)
     type(report_record_t), intent(out) :: report !! for the list of reports
 
-    report%kind = report_kind_t(name="motion", help="of other linkages: the motion under "// &
-      "motor and loads", pattern=pattern, default=default, studies="motion", masses=.true., &
+    report%kind = report_kind_t(name="motion", help="of other linkages: their motion", &
+      pattern=pattern, default=default, studies="motion", masses=.true., &
       linkages=other_linkages)
     call add_table(report, motion_table_t(), "motion", "time:time position*:deg "// &
       "rate*:rate torque:moment kinetic,potential,work,energy_error:energy "// &
