@@ -15,7 +15,9 @@ for path in tables:
     name = os.path.basename(path)
     with open(path, encoding="utf-8") as plain:
         lines = [line.rstrip("\n") for line in plain]
-    marked = [line for line in lines if line.startswith("#") and not line.startswith("# failed ")]
+    # The head; remarks of later variants stand behind it.
+    first = next((i for i, line in enumerate(lines) if not line.startswith("#") or line.startswith("# failed ")), len(lines))
+    marked = lines[:first]
     names, units = marked[-2][1:].split(), marked[-1][1:].split()
     head = [n if u == "-" else f"{n} [{u}]" for n, u in zip(names, units)] + ["failure"]
     with open(path[:-4] + ".csv", encoding="utf-8", newline="") as file:

@@ -7,7 +7,7 @@ form() {
   awk 'function fail(why) { print FILENAME ":" FNR ": " why; failed = 1; exit 1 }
     /^# failed / { if (!columns) columns = words; next }
     /^#/ && !rows { names = units; words = last; units = $0; last = NF - 1; next }
-    /^$/ { next }
+    /^$/ || /^#/ { next }  # Behind the head: remarks of later variants.
     { if (!rows++ && words != last) fail("the columns have not as many units as names")
       if (NF != last) fail(NF " columns, not " last)
       if (tolower($0) ~ /nan|inf|\*/) fail("no number") }
