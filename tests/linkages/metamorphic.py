@@ -62,7 +62,7 @@ KINDS = {
 KEYS = ("speed", "crank", "time", "pin", "link", "point", "gauge", "mode", "part", "quantity", "drive", "line", "linkage")
 SWAPPED = {"runs_forward": "runs_backward", "locks_forward": "locks_backward"}
 SWAPPED.update({value: key for key, value in SWAPPED.items()})
-EXTREMES = ("swing", "turns", "stroke", "time_ratio", "least_transmission", "greatest_transmission", "greatest_pressure")
+EXTREMES = ("swing", "turns", "stroke", "span", "time_ratio", "least_transmission", "greatest_transmission", "greatest_pressure")
 
 
 class Wrong(Exception):
