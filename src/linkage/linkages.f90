@@ -18,12 +18,13 @@ module linkages
   use coordinate_types, only: coordinate_t
   use joint_friction_types, only: joint_friction_t
   use kinds, only: wp
+  use motion_programs, only: motion_program_t
   implicit none (type, external)
   private
 
   public :: linkage_t, body_t, body_pin_t, lump_t, forced_place_t, slider_t, turn_t, drive_t, &
     drawing_t, equation_t, group_t, path_t, bridge_t, shaft_t
-  public :: mobility, reference_point, is_dyad_linkage, cross, normal_to, turned, &
+  public :: mobility, reference_point, is_dyad_linkage, follows_angle, cross, normal_to, turned, &
     turned_back
   public :: drive_of_nothing, drive_of_angle, drive_of_slider, drive_of_length
   public :: rule_through, rule_stop, rule_branch
@@ -139,7 +140,8 @@ module linkages
     integer :: pin = 0                          !! where they do
   end type turn_t
 
-  !> An input. Its coordinate is `ratio*c + phase` with the coordinate c of the first one.
+  !> An input. Its coordinate is `ratio*c + phase` with the coordinate c of the first one, or it has
+  !! a law of its own, in a linkage that runs in time.
   type :: drive_t
     integer :: kind = drive_of_angle  !! one of the drive_of_… constants
     integer :: body = 0               !! that turns, or whose length changes
@@ -148,6 +150,8 @@ module linkages
     real(wp) :: ratio = 1.0_wp        !! to the first drive's [-], or between angle and length
                                       !! [m/deg], [deg/m]
     real(wp) :: phase = 0.0_wp        !! [deg] or [m]
+    logical :: has_law = .false.      !! its coordinate is that of `law`, plus `phase`
+    type(motion_program_t) :: law     !! over the time [deg] or [m]
     logical :: is_free = .false.      !! its coordinate is given, but nothing holds it there when
                                       !! the linkage vibrates
   end type drive_t
@@ -253,6 +257,13 @@ module linkages
     type(slider_t), allocatable :: sliders(:)      !! pins on lines
     type(turn_t), allocatable :: turns(:)          !! bodies that turn together
     type(drive_t), allocatable :: drives(:)        !! the first is the crank of tables and speeds
+    logical :: runs_in_time = .false.              !! drives have laws that do not follow the first
+                                                   !! one: wherever a linkage is placed and moved
+                                                   !! by the coordinate of the first drive, the time
+                                                   !! in s takes its place. The first drive has a
+                                                   !! law; rates are per second, and the speed is 1,
+                                                   !! the acceleration 0
+    real(wp) :: times(2) = 0.0_wp                  !! first and last instant, in time [s]
     type(drawing_t) :: drawing                     !! where pins are about, to start from
     logical :: has_crank = .true.                  !! the first drive turns the first body about its
                                                    !! first pin, a ground pivot
@@ -315,6 +326,15 @@ contains
     is = linkage%has_crank .and. all(linkage%groups%kind == group_dyad) .and. &
       size(linkage%sliders) == 0 .and. size(linkage%drives) == 1
   end function is_dyad_linkage
+
+  !> Whether a linkage is placed and moved by an angle in degrees, of which derivatives are per
+  !! radian; else by a length, or by the time.
+  pure function follows_angle(linkage) result(follows)
+    type(linkage_t), intent(in) :: linkage !! its drives
+    logical :: follows
+
+    follows = linkage%drives(1)%kind == drive_of_angle .and. .not. linkage%runs_in_time
+  end function follows_angle
 
   !> Component of `a × b` normal to the plane.
   pure function cross(a, b)

@@ -5,7 +5,7 @@ module drawn_cranks
   use kinds, only: wp
   use linkage_paths, only: period_of
   use linkages, only: demand_drive, drive_of_angle, equation_t, linkage_t
-  use models, only: model_t, report_number
+  use models, only: model_t, report_number, runs_in_time
   use pose_types, only: drawn_pose, pose_t
   implicit none (type, external)
   private
@@ -14,8 +14,8 @@ module drawn_cranks
 
 contains
 
-  !> Coordinates of the first drive from which the linkage may be followed [deg] or [m]: that of the
-  !! drawing, if there is one, then those of the deck, in its order.
+  !> Coordinates of the first drive from which the linkage may be followed [deg] or [m], in time
+  !! instants [s]: that of the drawing, if there is one, then those of the deck, in its order.
   pure function starting_cranks(model, linkage) result(cranks)
     type(model_t), intent(in) :: model     !! its positions
     type(linkage_t), intent(in) :: linkage !! with its drives, planned
@@ -51,6 +51,10 @@ contains
 
     crank = 0.0_wp
     if (model%is_structure) return
+    if (runs_in_time(model)) then
+      crank = drawn_time(model, linkage)
+      return
+    end if
     ! The drive is off by the coordinate that is sought.
     pose = drawn_pose(linkage, [0.0_wp, 0.0_wp])
     crank = misfit_of(linkage, equation_t(demand_drive, number=1), pose, 0.0_wp)
@@ -62,13 +66,34 @@ contains
     all_turns = most_turns
     if (period > 0.0_wp) all_turns = nint(period/360.0_wp)
     do turns = 0, all_turns - 1
-      misfit = misfit_of_drives(linkage, pose, crank + 360.0_wp*turns)
+      misfit = misfit_of_drives(linkage, pose, crank + 360.0_wp*turns, 2)
       if (misfit > least - rounding) cycle
       least = misfit
       nearest = turns
     end do
     crank = near_positions(model, crank + 360.0_wp*nearest, period)
   end function drawn_crank
+
+  !> The instant of the deck at which the drives are nearest to the drawing [s].
+  pure function drawn_time(model, linkage) result(time)
+    type(model_t), intent(in) :: model
+    type(linkage_t), intent(in) :: linkage
+    real(wp) :: time
+
+    type(pose_t) :: pose
+    real(wp) :: misfit, least
+    integer :: i
+
+    time = linkage%times(1)
+    pose = drawn_pose(linkage, [0.0_wp, 0.0_wp])
+    least = huge(least)
+    do i = 1, size(model%crank%value)
+      misfit = misfit_of_drives(linkage, pose, model%crank%value(i), 1)
+      if (misfit >= least) cycle
+      least = misfit
+      time = model%crank%value(i)
+    end do
+  end function drawn_time
 
   !> A crank angle that is moved by whole periods to the positions of the deck, the first of those
   !! of CRANK and of REPORT motion that are there; to the nearest end of their range, or into it by
@@ -99,19 +124,20 @@ contains
     if (near > highest .and. near - period >= lowest) near = near - period
   end function near_positions
 
-  !> How far the drives that are geared to the first one are from a drawing, in radians, and in
-  !! lengths of the largest body.
-  pure function misfit_of_drives(linkage, drawn, crank) result(misfit)
+  !> How far drives are from a drawing, in radians, and in lengths of the largest body: of those
+  !! from a number on all that move.
+  pure function misfit_of_drives(linkage, drawn, crank, first) result(misfit)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: drawn
-    real(wp), intent(in) :: crank !! [deg]
+    real(wp), intent(in) :: crank !! [deg], in time [s]
+    integer, intent(in) :: first  !! number
     real(wp) :: misfit
 
     real(wp) :: one
     integer :: i
 
     misfit = 0.0_wp
-    do i = 2, size(linkage%drives)
+    do i = first, size(linkage%drives)
       if (.not. abs(linkage%drives(i)%ratio) > 0.0_wp) cycle
       one = abs(misfit_of(linkage, equation_t(demand_drive, number=i), drawn, crank))
       if (linkage%drives(i)%kind /= drive_of_angle) one = one/maxval(linkage%bodies%length)

@@ -16,7 +16,8 @@ module linkage_builder
   use linkage_paths, only: follow_path
   use linkages, only: body_t, drive_of_angle, drive_of_length, drive_of_nothing, drive_of_slider, &
     linkage_t
-  use models, only: is_four_bar, is_pin, model_t, rule_at_change_points
+  use models, only: is_four_bar, is_pin, model_t, report_number, rule_at_change_points, &
+    runs_in_time
   use name_index, only: find_name, name_index_t, new_name_index
   use plan_problems, only: plan_problem_t
   use plan_sides, only: side_t, undecided_t
@@ -444,6 +445,7 @@ contains
       return
     end if
     allocate (linkage%drives(size(model%drives)))
+    if (runs_in_time(model)) call take_times(model, linkage)
     do i = 1, size(model%drives)
       associate (card => model%drives(i), drive => linkage%drives(i))
         drive%kind = drive_of_angle
@@ -461,6 +463,8 @@ contains
         if (.not. moves_along(model%drives(1)%kind)) drive%ratio = drive%ratio*degree
         if (moves_along(card%kind) .eqv. moves_along(model%drives(1)%kind)) drive%ratio = card%ratio
         drive%phase = card%phase*unit
+        ! It moves, and not as the first one does.
+        if (drive%has_law) drive%ratio = 1.0_wp
         if (card%has_at) then
           drive%ratio = 0.0_wp
           drive%phase = card%at*unit
@@ -468,6 +472,34 @@ contains
       end associate
     end do
   end subroutine take_drives
+
+  !> Laws of drives, and between which instants they are wanted; a path needs some way.
+  pure subroutine take_times(model, linkage)
+    type(model_t), intent(in) :: model
+    type(linkage_t), intent(inout) :: linkage
+
+    real(wp), parameter :: shortest = 1.0e-6_wp !! [s]
+    integer :: i
+
+    linkage%runs_in_time = .true.
+    do i = 1, size(linkage%drives)
+      linkage%drives(i)%has_law = model%drives(i)%law%line > 0
+      if (linkage%drives(i)%has_law) linkage%drives(i)%law = model%programs(i)
+    end do
+    if (size(model%time%value) == 0) return
+    linkage%times = [minval(model%time%value), maxval(model%time%value)]
+    ! Ratings are those of a whole period.
+    if (report_number(model, "sizing") > 0) then
+      do i = 1, size(linkage%drives)
+        if (.not. linkage%drives(i)%has_law .or. allocated(linkage%drives(i)%law%segments)) cycle
+        associate (spline => linkage%drives(i)%law%spline)
+          if (spline%is_periodic) linkage%times = [min(linkage%times(1), spline%x(1)), &
+            max(linkage%times(2), spline%x(size(spline%x)))]
+        end associate
+      end do
+    end if
+    linkage%times(2) = max(linkage%times(2), linkage%times(1) + shortest)
+  end subroutine take_times
 
   !> The sides that BRANCH cards give.
   pure subroutine take_sides(model, pins, sides)

@@ -161,6 +161,7 @@ contains
     integer :: motion
 
     positions = model%crank%value
+    if (allocated(model%law_places)) positions = model%law_places
     motion = report_number(model, "motion")
     if (motion > 0 .and. size(positions) == 0) positions = [model%reports(motion)%start_angle]
     turned_angle = angle

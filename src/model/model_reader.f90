@@ -21,7 +21,7 @@ module model_reader
   use joint_checks, only: check_joints
   use kinds, only: wp
   use law_cards, only: read_law, read_time
-  use law_checks, only: find_law, refuse_reports_of_law
+  use law_checks, only: find_laws, refuse_reports_of_law
   use link_cards, only: read_link
   use link_checks, only: check_links
   use linkage_cards, only: read_ground, read_mesh, read_pin_mass, set_default_mesh
@@ -32,7 +32,7 @@ module model_reader
   use mesh_checks, only: check_meshes
   use models, only: as_four_bar, drives_length, has_gauge_histories, has_law, is_four_bar, &
     is_loaded, is_moving, is_sprung, model_t, needs_frequencies, needs_mesh, &
-    needs_response, report_number
+    needs_response, report_number, runs_in_time
   use motor_cards, only: read_motor
   use motor_checks, only: find_motor_line
   use process_cards, only: is_process_form, process_card_t, read_process_force, &
@@ -119,7 +119,7 @@ contains
     call read_stops(cards, diagnostics, model)
     call read_frictions(cards, diagnostics, model)
     call check_tables(cards, diagnostics)
-    call find_law(cards, diagnostics, model)
+    call find_laws(cards, diagnostics, model)
     call find_motor_line(cards, diagnostics, model)
     call find_cuts(reports, model)
     call choose_reports(reports, diagnostics, model)
@@ -222,6 +222,9 @@ contains
             report%kind%tables(2) = table_kind_t()
             report%kind%studies = report%kind%studies(:index(report%kind%studies, "harmonics") - 1)
           end if
+          ! What starts the linkage from rest is told of a first drive that moves all.
+          if (report%kind%name == "friction" .and. runs_in_time(model)) report%kind%tables(2) = &
+            table_kind_t()
         else if (is_sound) then
           call add_error(diagnostics, report%keyword, "REPORT "//trim(report%kind%name)// &
             " is made for four-bars only, so far: three links with two pins each, two ground "// &
@@ -415,7 +418,7 @@ contains
     type(model_t), intent(inout) :: model !! has its units
 
     integer :: so_far(size(card_kinds)), i, kind, first_drive
-    logical :: on_link
+    logical :: on_link, of_length
 
     allocate (model%materials(number_of(cards, "MATERIAL")), &
       model%sections(number_of(cards, "SECTION")), model%grounds(number_of(cards, "GROUND")), &
@@ -441,8 +444,10 @@ contains
       so_far(kind) = so_far(kind) + 1
       on_link = card_kinds(kind)%keyword == "LOAD"
       if (on_link) on_link = names_link(cards(i), cards)
+      of_length = card_kinds(kind)%keyword == "LAW"
+      if (of_length) of_length = law_of_length(cards(i), cards)
       call read_card(cards(i), trim(card_kinds(kind)%keyword), so_far(kind), &
-        cards(min(first_drive, size(cards))), on_link, reports, diagnostics, model)
+        cards(min(first_drive, size(cards))), on_link, of_length, reports, diagnostics, model)
     end do
     if (size(model%drives) > 0) model%drive = model%drives(1)%subject
   end subroutine read_model_cards
@@ -464,6 +469,32 @@ contains
     names = .false.
   end function names_link
 
+  !> Whether a LAW card is that of a drive that moves a slider or a ram: the first DRIVE that has
+  !! it, or without one the first of all.
+  pure function law_of_length(law, cards) result(of_length)
+    type(card_t), intent(in) :: law
+    type(card_t), intent(in) :: cards(:) !! all of the deck
+    logical :: of_length
+
+    integer :: i
+    logical :: is_known
+
+    of_length = .false.
+    is_known = .false.
+    do i = 1, size(cards)
+      if (.not. same_word(cards(i)%keyword%text, "DRIVE")) cycle
+      if (.not. is_known) of_length = moves_along(kind_of_drive(cards(i)))
+      is_known = .true.
+      if (size(law%words) == 0) return
+      if (.not. has_value(cards(i), "law")) cycle
+      associate (word => value_of(cards(i), "law"))
+        if (.not. same_word(word%text, law%words(1)%text)) cycle
+      end associate
+      of_length = moves_along(kind_of_drive(cards(i)))
+      return
+    end do
+  end function law_of_length
+
   pure function number_of(cards, keyword) result(number)
     type(card_t), intent(in) :: cards(:)
     character(len=*), intent(in) :: keyword
@@ -478,12 +509,14 @@ contains
   end function number_of
 
   !> Reads one card. UNITS is read before; INCLUDE, SET and VARY are already carried out.
-  subroutine read_card(card, keyword, number, first_drive, on_link, reports, diagnostics, model)
+  subroutine read_card(card, keyword, number, first_drive, on_link, of_length, reports, &
+    diagnostics, model)
     type(card_t), intent(in) :: card
     character(len=*), intent(in) :: keyword       !! as in the table of cards
     integer, intent(in) :: number                 !! of the card among those of its keyword, from 1
     type(card_t), intent(in) :: first_drive       !! the first DRIVE card, if there is one
     logical, intent(in) :: on_link                !! of LOAD: its first word names a link
+    logical, intent(in) :: of_length              !! of LAW: it is that of a slider or a ram
     type(report_kind_t), intent(in) :: reports(:) !! (kinds) all that exist
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model !! has its units, and its lists their lengths
@@ -576,7 +609,7 @@ contains
         call read_speed(card, system, diagnostics, model%speed, model%acceleration, &
           model%ramp, model%ramp_word, by_length)
       case ("LAW")
-        call read_law(card, system, diagnostics, model%laws(number), by_length)
+        call read_law(card, system, diagnostics, model%laws(number), of_length)
       case ("TIME")
         call read_time(card, system, diagnostics, model%time)
       case ("INERTIA")

@@ -47,7 +47,7 @@ module models
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
     link_line_density, speed_in_table, speed_in_words, is_four_bar, as_four_bar, &
     is_of_four_bar, word_of_four_bar, is_pin, pivots, &
-    is_end_of_spring, is_end_of_measure, drives_length, balances, has_law, &
+    is_end_of_spring, is_end_of_measure, drives_length, balances, has_law, runs_in_time, &
     rule_at_change_points, motion_goes_through
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
@@ -107,7 +107,7 @@ module models
     type(branch_t), allocatable :: branches(:)  !! BRANCH cards about pins; of a four-bar
                                                 !! the one that says its branch
     type(value_list_t) :: crank                 !! positions of the first drive: angles [deg], of a
-                                                !! slider or a ram [m]
+                                                !! slider or a ram [m]; in time, instants [s]
     type(value_list_t) :: speed                 !! ω2 [rad/s], of a slider or a ram [m/s]
     type(unit_t) :: speed_unit                  !! of speeds in tables: `outputs%rate`, of a slider
                                                 !! or a ram a unit of velocity
@@ -122,6 +122,10 @@ module models
                                                 !! `acceleration`]; not allocated without a law
     type(motion_program_t) :: program           !! the law, its positions in degrees, of a slider
                                                 !! or a ram in m
+    type(motion_program_t), allocatable :: programs(:) !! (drives) their laws, likewise; of those
+                                                !! without one of no use. Allocated in time only
+    real(wp), allocatable :: law_places(:)      !! (instants) positions of the first drive in time
+                                                !! [deg] or [m]; allocated in time only
     real(wp) :: ramp = 0.0_wp                   !! time in which REPORT transient gets to the speed
                                                 !! from rest; 0: it has it [s]
     type(token_t) :: ramp_word
@@ -409,6 +413,16 @@ contains
 
     has = model%balance%keyword%line > 0 .or. size(model%shafts) > 0
   end function balances
+
+  !> Whether further drives have laws of their own: then the time takes the place of the first
+  !! drive wherever the linkage is placed and moved.
+  pure function runs_in_time(model) result(runs)
+    type(model_t), intent(in) :: model !! as read
+    logical :: runs
+
+    runs = .false.
+    if (size(model%drives) > 1) runs = any(model%drives(2:)%law%line > 0)
+  end function runs_in_time
 
   !> Whether the first drive moves by a law.
   pure function has_law(model) result(has)

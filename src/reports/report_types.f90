@@ -13,7 +13,7 @@
 !! therefore nothing that `add_item_rows` calls has a result of deferred length, for which gfortran
 !! 12 has one place for all threads.
 module report_types
-  use drive_motions, only: place_columns, table_place
+  use drive_motions, only: first_position, place_columns, table_place
   use drive_positions, only: shown_crank
   use friction_words, only: lock_words
   use kinds, only: wp
@@ -323,7 +323,8 @@ contains
       associate (positions => variant%found%positions)
         associate (state => positions%states(positions%state(number)))
           if (allocated(state%error)) then
-            call add_failed_row(rows, [shown_crank(variant, positions%crank(number))], &
+            call add_failed_row(rows, [shown_crank(variant, first_position(variant%model, &
+              number))], &
               state%error%text)
           else
             call table%add_at_rest(variant, plan%layout, number, rows)
@@ -385,7 +386,7 @@ contains
     real(wp) :: place(place_columns(variant%model))
 
     place = table_place(variant%model, speed, position)
-    place(size(place)) = shown_crank(variant, variant%found%positions%crank(position))
+    place(size(place)) = shown_crank(variant, first_position(variant%model, position))
     if (has_law(variant%model)) place(1) = from_si(place(1), table_factor("time", &
       variant%model%outputs))
     call add_failed_row(rows, place, reason)

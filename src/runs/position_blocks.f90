@@ -73,6 +73,7 @@ contains
         model%time%value = whole%time%value(before + 1:last)
         model%law_rates = whole%law_rates(:, before + 1:last)
       end if
+      if (allocated(whole%law_places)) model%law_places = whole%law_places(before + 1:last)
       positions%period = blocks%sample%period
       call list_block(whole%crank%value, blocks%first_alike, before, last, positions, &
         whole%time%value)

@@ -137,7 +137,7 @@ contains
 
     value = 0.0_wp
     if (coordinate%drive > 0) then
-      value = drive_value(linkage%drives(coordinate%drive), crank)
+      value = drive_value(linkage, coordinate%drive, crank)
       if (linkage%drives(coordinate%drive)%kind == drive_of_angle) value = value*degree
       return
     end if

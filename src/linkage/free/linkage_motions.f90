@@ -167,7 +167,7 @@ contains
       ! At a dead point itself the branch is that of the deck: closed forms are on it.
       motion%is_left = merge(determinants > 0.0_wp, linkage%groups%side > 0.0_wp, &
         abs(determinants) > merge(dead_point_sine, undecided_sine, allocated(system%loop)))
-      motion%position = [(drive_value(linkage%drives(system%free(k)), crank), k=1, f)]
+      motion%position = [(drive_value(linkage, system%free(k), crank), k=1, f)]
       allocate (motion%passages(0))
       if (.not. allocated(system%loop)) then
         allocate (motion%state(2*f + 1))

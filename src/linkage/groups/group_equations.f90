@@ -20,14 +20,16 @@ module group_equations
   use dense_factor, only: dense_factor_t, factorize
   use kinds, only: wp
   use linkages, only: body_t, cross, demand_angle, demand_drive, demand_length, demand_line, &
-    demand_turn, drive_of_angle, drive_t, drive_of_length, drive_of_slider, equation_t, group_t, &
+    demand_turn, drive_of_angle, drive_of_length, drive_of_slider, equation_t, group_t, &
     linkage_t, normal_to, turned
+  use motion_programs, only: program_values
   use pose_types, only: pose_t
   implicit none (type, external)
   private
 
   public :: gradient_t, find_gradient, misfit_of, curvature_of, drive_rate, drive_value, &
-    drive_direction, direction_at, unknowns_of, column_scales, group_matrix, factorize_group, &
+    find_rates_of_drives, drive_direction, direction_at, unknowns_of, column_scales, &
+    group_matrix, factorize_group, &
     world_line, line_axis, line_offset, farthest_arm
 
   !> Derivatives of an equation by the positions of up to two pins and the angles of up to two
@@ -180,11 +182,11 @@ contains
         case (drive_of_slider)
           call world_line(linkage, pose, drive%slider, axis, u)
           misfit = dot_product(axis, pose%pin(:, linkage%sliders(drive%slider)%pin) - u) - &
-            drive_value(drive, crank)
+            drive_value(linkage, equation%number, crank)
         case (drive_of_length)
           u = pose%pin(:, linkage%bodies(drive%body)%last_pin) - pose%pin(:, &
             linkage%bodies(drive%body)%first_pin)
-          misfit = norm2(u) - drive_value(drive, crank)
+          misfit = norm2(u) - drive_value(linkage, equation%number, crank)
         end select
       end associate
     end select
@@ -229,17 +231,43 @@ contains
   end function is_distance
 
   !> Coordinate of a drive [deg] or [m].
-  pure function drive_value(drive, crank) result(value)
-    type(drive_t), intent(in) :: drive !! its ratio and phase
-    real(wp), intent(in) :: crank      !! coordinate of the first drive [deg] or [m]
+  pure function drive_value(linkage, number, crank) result(value)
+    type(linkage_t), intent(in) :: linkage !! its drives
+    integer, intent(in) :: number          !! of the drive, from 1
+    real(wp), intent(in) :: crank          !! coordinate of the first drive [deg] or [m]; in time
+                                           !! [s]
     real(wp) :: value
 
-    value = drive%ratio*crank + drive%phase
+    real(wp) :: motion(0:2)
+
+    if (linkage%runs_in_time) then
+      motion = motion_in_time(linkage, number, crank)
+      value = motion(0)
+    else
+      value = linkage%drives(number)%ratio*crank + linkage%drives(number)%phase
+    end if
   end function drive_value
+
+  !> Position, rate and acceleration of a drive of a linkage that runs in time.
+  pure function motion_in_time(linkage, number, time) result(motion)
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: number
+    real(wp), intent(in) :: time !! [s]
+    real(wp) :: motion(0:2)      !! [deg, deg/s, deg/s²] or [m, m/s, m/s²]
+
+    associate (drive => linkage%drives(number))
+      if (drive%has_law) then
+        motion = program_values(drive%law, time)
+      else
+        motion = drive%ratio*program_values(linkage%drives(1)%law, time)
+      end if
+      motion(0) = motion(0) + drive%phase
+    end associate
+  end function motion_in_time
 
   !> Rate of a drive's coordinate, angles in radians, per that of the first drive.
   pure function drive_rate(linkage, number) result(rate)
-    type(linkage_t), intent(in) :: linkage !! its drives
+    type(linkage_t), intent(in) :: linkage !! its drives, which go with the first one
     integer, intent(in) :: number          !! of the drive, from 1
     real(wp) :: rate
 
@@ -248,6 +276,32 @@ contains
     if (linkage%drives(1)%kind == drive_of_angle) rate = rate/degree
     if (number == 1) rate = 1.0_wp
   end function drive_rate
+
+  !> First and second derivatives of the coordinates of all drives, angles in radians, with respect
+  !! to that of the first one, of which the second are 0; in time rates and accelerations.
+  pure subroutine find_rates_of_drives(linkage, crank, rates, accelerations)
+    type(linkage_t), intent(in) :: linkage        !! its drives
+    real(wp), intent(in) :: crank                 !! coordinate of the first drive [deg] or [m]; in
+                                                  !! time [s]
+    real(wp), intent(out) :: rates(:)             !! (drives) [rad] or [m], per rad or m; in time
+                                                  !! per second
+    real(wp), intent(out) :: accelerations(:)     !! (drives) likewise, per square
+
+    real(wp) :: motion(0:2)
+    integer :: i
+
+    accelerations = 0.0_wp
+    if (.not. linkage%runs_in_time) then
+      rates = [(drive_rate(linkage, i), i=1, size(rates))]
+      return
+    end if
+    do i = 1, size(rates)
+      motion = motion_in_time(linkage, i, crank)
+      if (linkage%drives(i)%kind == drive_of_angle) motion = motion*degree
+      rates(i) = motion(1)
+      accelerations(i) = motion(2)
+    end do
+  end subroutine find_rates_of_drives
 
   !> The direction, first → last pin, that a drive gives its body.
   pure function drive_direction(linkage, number, pose, crank) result(direction)
@@ -258,7 +312,7 @@ contains
     real(wp) :: direction(2)
 
     associate (drive => linkage%drives(number))
-      direction = direction_at(drive_value(drive, crank))
+      direction = direction_at(drive_value(linkage, number, crank))
       if (drive%against > 0) direction = turned(direction, &
         turned(linkage%bodies(drive%against)%heading, pose%direction(:, drive%against)))
       associate (heading => linkage%bodies(drive%body)%heading)

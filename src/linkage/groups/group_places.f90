@@ -74,9 +74,9 @@ contains
       pose%direction(:, group%body(1)) = turned_back(way/norm2(way), place_of_pin(linkage%bodies( &
         group%body(1)), group%middle))
     case (group_placed)
-      associate (drive => linkage%drives(group%equations(1)%number))
-        call world_line(linkage, pose, drive%slider, axis, point)
-        pose%pin(:, group%pins(1)) = point + drive_value(drive, crank)*axis
+      associate (number => group%equations(1)%number)
+        call world_line(linkage, pose, linkage%drives(number)%slider, axis, point)
+        pose%pin(:, group%pins(1)) = point + drive_value(linkage, number, crank)*axis
       end associate
     end select
   end subroutine place_group
@@ -151,7 +151,7 @@ contains
       length = norm2(equation%place)
       return
     end if
-    length = drive_value(linkage%drives(equation%number), crank)
+    length = drive_value(linkage, equation%number, crank)
     if (length > 0.0_wp) return
     call set_error(error, error_of_reach, "the position is out of reach: a ram has a length "// &
       "above 0", body=body)

@@ -5,9 +5,13 @@
 !! radians or a length. With `h = dθ/dθ2` and `h' = d²θ/dθ2²` every angular velocity is `h ω2` and
 !! every angular acceleration `h α2 + h' ω2²`; the same holds for points. Setting ω2 = 1 and α2 = 0
 !! in (2.22) and (2.23), (2.35) to (2.38) of Ulker (2010) gives h and h'.
+!!
+!! Of a linkage that runs in time all derivatives are with respect to the time: h is the angular
+!! velocity, h' the angular acceleration of the true motion of all drives, and ω2 = 1, α2 = 0.
 module kinematic_coefficients
   use dense_factor, only: dense_factor_t, solve
-  use group_equations, only: curvature_of, drive_rate, factorize_group, find_gradient, gradient_t
+  use group_equations, only: curvature_of, factorize_group, find_gradient, find_rates_of_drives, &
+    gradient_t
   use kinds, only: wp
   use linkages, only: demand_drive, group_t, group_carried, group_dyad, linkage_t, normal_to
   use pose_types, only: arm_to_pin, kinematic_coefficients_t
@@ -32,8 +36,7 @@ contains
                                                !! first
     type(kinematic_coefficients_t) :: coefficients
 
-    real(wp) :: drives(size(linkage%drives))
-    integer :: i
+    real(wp), dimension(size(linkage%drives)) :: drives, accelerations
 
     if (allocated(pose%coefficients)) then
       coefficients = pose%coefficients
@@ -45,12 +48,13 @@ contains
       coefficients%pin_slope = rates(1)**2*coefficients%pin_slope
       return
     end if
+    accelerations = 0.0_wp
     if (present(rates)) then
       drives = rates
     else
-      drives = [(drive_rate(linkage, i), i=1, size(drives))]
+      call find_rates_of_drives(linkage, pose%crank, drives, accelerations)
     end if
-    call find_coefficients(linkage, pose, drives, .true., coefficients)
+    call find_coefficients(linkage, pose, drives, accelerations, .true., coefficients)
   end function find_kinematic_coefficients
 
   !> Velocities of pins and bodies alone, with rates of the drives.
@@ -63,15 +67,16 @@ contains
     if (allocated(pose%coefficients)) then
       coefficients = find_kinematic_coefficients(linkage, pose, rates)
     else
-      call find_coefficients(linkage, pose, rates, .false., coefficients)
+      call find_coefficients(linkage, pose, rates, 0.0_wp*rates, .false., coefficients)
     end if
   end subroutine find_velocities
 
   !> Group by group.
-  pure subroutine find_coefficients(linkage, pose, rates, with_slopes, coefficients)
+  pure subroutine find_coefficients(linkage, pose, rates, accelerations, with_slopes, &
+    coefficients)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
-    real(wp), intent(in) :: rates(:)
+    real(wp), intent(in) :: rates(:), accelerations(:) !! (drives)
     logical, intent(in) :: with_slopes !! accelerations are wanted
     type(kinematic_coefficients_t), intent(out) :: coefficients
 
@@ -92,6 +97,11 @@ contains
           pose%direction(:, 1)))
         coefficients%pin_slope(:, crank%last_pin) = -rates(1)**2*(crank%length* &
           pose%direction(:, 1))
+        if (linkage%runs_in_time) then
+          coefficients%turn_slope(1) = accelerations(1)
+          coefficients%pin_slope(:, crank%last_pin) = coefficients%pin_slope(:, crank%last_pin) + &
+            accelerations(1)*(crank%length*normal_to(pose%direction(:, 1)))
+        end if
       end associate
     end if
     do i = 1, size(linkage%groups)
@@ -101,7 +111,8 @@ contains
       case (group_carried)
         call move_carried(linkage, linkage%groups(i), pose, coefficients)
       case default
-        call move_group(linkage, linkage%groups(i), pose, rates, with_slopes, coefficients)
+        call move_group(linkage, linkage%groups(i), pose, rates, accelerations, with_slopes, &
+          coefficients)
       end select
     end do
   end subroutine find_coefficients
@@ -129,12 +140,13 @@ contains
   end subroutine move_carried
 
   !> First and second derivatives of the unknowns of a group, from its equations: `J q' = c' − J₀
-  !! q₀'` and `J q'' = −q'ᵀ ∇²C q' − J₀ q₀''`, where q₀ is placed before and c' the rate of drives.
-  pure subroutine move_group(linkage, group, pose, rates, with_slopes, coefficients)
+  !! q₀'` and `J q'' = c'' − q'ᵀ ∇²C q' − J₀ q₀''`, where q₀ is placed before, c' the rate of drives
+  !! and c'' their acceleration, which only a linkage that runs in time has.
+  pure subroutine move_group(linkage, group, pose, rates, accelerations, with_slopes, coefficients)
     type(linkage_t), intent(in) :: linkage
     type(group_t), intent(in) :: group
     type(pose_t), intent(in) :: pose
-    real(wp), intent(in) :: rates(:)
+    real(wp), intent(in) :: rates(:), accelerations(:)
     logical, intent(in) :: with_slopes
     type(kinematic_coefficients_t), intent(inout) :: coefficients
 
@@ -157,6 +169,8 @@ contains
     do i = 1, size(group%equations)
       right(i) = -along(gradient(i), coefficients%pin_slope, coefficients%turn_slope) - &
         curvature_of(linkage, group%equations(i), pose, coefficients%turn, coefficients%pin)
+      if (linkage%runs_in_time .and. group%equations(i)%kind == demand_drive) right(i) = &
+        right(i) + accelerations(group%equations(i)%number)
     end do
     call store_derivatives(group, scales, solve(factor, right), coefficients%pin_slope, &
       coefficients%turn_slope)

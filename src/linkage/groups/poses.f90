@@ -23,6 +23,9 @@ module poses
   !! below this, it is at a dead point: velocities grow like its inverse.
   real(wp), parameter :: dead_point_sine = 1.0e-6_wp
 
+  !> Corrections below this share of the longest link are rounding of one that stands still.
+  real(wp), parameter :: still = 1.0e-9_wp
+
 contains
 
   !> Places every pin for a crank angle at which the crank can move the links, and all forces in the
@@ -175,6 +178,8 @@ contains
     end if
     call place_groups(linkage, crank, pose, correction, error, side)
     if (allocated(error)) return
+    ! In time the linkage may stand still between two stations.
+    if (linkage%runs_in_time) allowed = allowed + still*maxval(linkage%bodies%length)
     if (correction > allowed) call set_error(error, error_of_numerics, &
       "the position was not found by iterations: they left the path")
   end subroutine place_pins

@@ -12,7 +12,7 @@
 module bridges
   use constants, only: degree
   use kinds, only: wp
-  use linkages, only: bridge_t, cross, drive_of_angle, linkage_t, path_t, reference_point
+  use linkages, only: bridge_t, cross, follows_angle, linkage_t, path_t, reference_point
   use pose_types, only: pose_t
   implicit none (type, external)
   private
@@ -74,7 +74,7 @@ contains
       weight = node_weights(bridge%crank, crank)
     end if
     ! Derivatives are per radian.
-    if (linkage%drives(1)%kind == drive_of_angle) then
+    if (follows_angle(linkage)) then
       weight(:, 1) = weight(:, 1)/degree
       weight(:, 2) = weight(:, 2)/degree**2
     end if

@@ -11,11 +11,12 @@ module linkage_paths
   use errors, only: error_of_dead_point, error_of_input, error_t, set_error
   use kinds, only: wp
   use linkages, only: bridge_t, rule_branch, rule_stop, rule_through, drive_of_angle, &
-    group_t, group_by_newton, is_dyad_linkage, linkage_t, path_t, reference_point
+    follows_angle, group_t, group_by_newton, is_dyad_linkage, linkage_t, path_t, reference_point
   use path_limits, only: approach_t, watch
   use path_steps, only: new_station, station_t, take_step
   use pose_types, only: count_from, drawn_pose, pose_t
   use poses, only: dead_point_sine, place_groups, place_links
+  use time_steps, only: step_in_time
   implicit none (type, external)
   private
 
@@ -68,7 +69,7 @@ contains
     real(wp) :: period
 
     period = 0.0_wp
-    if (linkage%drives(1)%kind /= drive_of_angle) return
+    if (.not. follows_angle(linkage)) return
     period = period_of_drives(linkage)
     if (allocated(linkage%path%crank)) period = linkage%path%period
   end function period_of
@@ -122,12 +123,14 @@ contains
     if (has_iterations(linkage)) then
       call begin_at_drawing(linkage, starts(1), first, span, nearest, error)
       if (allocated(error)) return
-      call follow_by_iterations(linkage, first, span, changes == rule_through)
+      call follow_by_iterations(linkage, first, span, changes == rule_through .and. &
+        .not. linkage%runs_in_time)
       if (size(linkage%path%crank) == 1) call set_error(error, error_of_dead_point, &
         "dead point: the linkage cannot be followed from the drawing")
       return
     end if
-    if (.not. may_change(linkage)) return
+    ! In time dyads keep their sides.
+    if (linkage%runs_in_time .or. .not. may_change(linkage)) return
     call begin_at_place(linkage, starts, first, span, usual)
     if (span <= 0.0_wp) return
     call follow(linkage, first, span, usual, .true., path)
@@ -374,7 +377,7 @@ contains
     call march(linkage, first, -1.0_wp, span, usual, through, down)
     call join(down, up, path)
     ! Within less than a turn an angle is the same with and without whole turns.
-    if (linkage%drives(1)%kind == drive_of_angle .and. path%crank(size(path%crank)) - &
+    if (follows_angle(linkage) .and. path%crank(size(path%crank)) - &
       path%crank(1) < 360.0_wp) path%period = 360.0_wp
   end subroutine follow
 
@@ -388,7 +391,8 @@ contains
       maxval(linkage%bodies%length))
   end function linkage_span
 
-  !> Follows the linkage in one sense until it repeats its pose, ends, or has made enough turns.
+  !> Follows the linkage in one sense until it repeats its pose, ends, or has made enough turns; in
+  !! time to the last instant.
   pure subroutine march(linkage, first, sense, span, usual, through, path)
     type(linkage_t), intent(in) :: linkage
     type(station_t), intent(in) :: first
@@ -406,7 +410,7 @@ contains
     integer :: halvings, stations, turns
     logical :: is_angle, is_close, is_good, is_free, is_ahead, found
 
-    is_angle = linkage%drives(1)%kind == drive_of_angle
+    is_angle = follows_angle(linkage)
     most_step = length_step*span
     if (is_angle) most_step = angle_step
     unit = 1.0_wp
@@ -425,6 +429,10 @@ contains
     end if
     is_close = .false.
     do
+      if (linkage%runs_in_time) then
+        most_step = step_in_time(linkage, here%crank, sense, angle_step, length_step*span)
+        if (.not. most_step > 0.0_wp) exit
+      end if
       step = sense*most_step/2.0_wp**halvings
       if (is_angle) then
         ! A station stands exactly at every whole turn.
@@ -459,6 +467,7 @@ contains
       usual = max(usual, abs(here%pose%sine))
       if (is_close) is_close = is_near_change(here%pose%sine, usual, near_change)
       halvings = max(0, halvings - 1)
+      if (linkage%runs_in_time) cycle
       call watch(linkage, here, span, approach)
       if (approach%is_over) exit
       if (is_angle) then

@@ -7,7 +7,7 @@ module path_limits
   use bridges, only: cross_bridge, node_weights, thinned
   use constants, only: degree
   use kinds, only: wp
-  use linkages, only: bridge_t, drive_of_angle, linkage_t
+  use linkages, only: bridge_t, follows_angle, linkage_t
   use path_steps, only: station_t
   use pose_types, only: pose_t
   implicit none (type, external)
@@ -114,7 +114,7 @@ contains
     associate (last => limit%crank(nodes), before => limit%crank(nodes - 1))
       way = dot_product(weight(:, 0), limit%crank - last)
       error = abs(way - dot_product(fewer(:, 0), limit%crank(2:) - last))/span
-      if (linkage%drives(1)%kind == drive_of_angle) error = error*span*degree
+      if (follows_angle(linkage)) error = error*span*degree
       ! It lies ahead, and no farther than the stations say.
       if (way*(last - before) <= 0.0_wp .or. abs(way) > 2.0_wp*abs(last - before)) return
       limit%change = last + way

@@ -20,6 +20,9 @@ module path_steps
     type(kinematic_coefficients_t) :: coefficients
   end type station_t
 
+  !> In time, places nearer to each other than this share of the longest link are one.
+  real(wp), parameter :: still = 1.0e-9_wp
+
 contains
 
   !> A pose as a place on the way.
@@ -73,6 +76,8 @@ contains
     is_good = .not. allocated(error)
     if (.not. is_good) return
     correction = maxval(abs(pose%pin - expected%pin))
+    ! Drives that stand still leave nothing but rounding.
+    if (linkage%runs_in_time) correction = correction - still*maxval(linkage%bodies%length)
     is_good = all(pose%sine*sine > 0.0_wp) .and. all(abs(pose%sine) > dead_point_sine) .and. &
       correction <= 0.1_wp*maxval(abs(pose%pin - station%pose%pin))
     if (is_good) next = new_station(linkage, crank, pose)

@@ -7,7 +7,7 @@ module chosen_assemblies
   use errors, only: error_t
   use group_equations, only: world_line
   use kinds, only: wp
-  use linkages, only: cross, drive_of_angle, linkage_t, reference_point
+  use linkages, only: cross, follows_angle, linkage_t, reference_point
   use plan_problems, only: new_problem, plan_problem_t, problem_sides_differ
   use plan_sides, only: card_about, find_line, problem_of_group, side_t, undecided_t
   use pose_types, only: drawn_pose, pose_t
@@ -53,7 +53,7 @@ contains
     groups = groups(:size(is_open))
     side = linkage%groups%side
     places = cranks(:min(size(cranks), most_places))
-    if (linkage%drives(1)%kind == drive_of_angle) places = [places, cranks(1) + beside]
+    if (follows_angle(linkage)) places = [places, cranks(1) + beside]
     do i = 1, size(places)
       call try_assemblies(linkage, sides(undecided%cards), groups, side, places(i), closes, fits, &
         holds, is_flat)

@@ -5,7 +5,7 @@ module singular_drawings
   use dense_factor, only: dense_factor_t, factorize, solve
   use group_equations, only: farthest_arm, find_gradient, gradient_t, misfit_of
   use kinds, only: wp
-  use linkages, only: demand_angle, demand_length, drive_of_angle, drive_of_nothing, &
+  use linkages, only: demand_angle, demand_length, drive_of_nothing, follows_angle, &
     equation_t, linkage_t, reference_point, turned
   use plan_equations, only: append_equation, drive_equation, length_drive, line_equation, &
     pin_equation, turn_equation
@@ -48,7 +48,7 @@ contains
     call list_equations(linkage, equations)
     span = max(maxval(abs(start%pin)), maxval(linkage%bodies%length))
     unit = span
-    if (linkage%drives(1)%kind == drive_of_angle) unit = 1.0_wp/degree
+    if (follows_angle(linkage)) unit = 1.0_wp/degree
     if (linkage%drives(1)%kind == drive_of_nothing) unit = 0.0_wp
     moved = 0
     do i = 1, size(ways)

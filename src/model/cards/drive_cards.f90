@@ -31,9 +31,6 @@ module drive_cards
   !> What happens at change points, in the order of the rule_… constants.
   character(len=*), parameter :: change_point_words = "through stop branch"
 
-  !> Keys of the first DRIVE alone.
-  character(len=*), parameter :: keys_of_first(2) = [character(len=13) :: "law", "change_points"]
-
   !> One DRIVE card. A word without a line is not on the card.
   type :: drive_card_t
     type(token_t) :: keyword
@@ -47,7 +44,7 @@ module drive_cards
     logical :: has_ratio = .false. !! `ratio=` is given
     real(wp) :: ratio = 0.0_wp     !! position over that of the first drive [SI: 1, m/rad or rad/m]
     type(token_t) :: ratio_word
-    type(token_t) :: law           !! of the first drive: the name of its law
+    type(token_t) :: law           !! the name of its law
     integer :: change_points = 0   !! of the first drive: number among the words; 0: not given
     type(token_t) :: change_points_word
     real(wp) :: phase = 0.0_wp     !! position where that of the first drive is 0 [as `at`]
@@ -102,10 +99,10 @@ contains
   end function word_count
 
   !> Reads a DRIVE card: `link`, `link against link`, `pin guide` or `link length`, then `free`, and
-  !! of the first card `law=`, of a further one `at=` or `ratio= [phase=]`. A ratio of a length to
-  !! an angle is in the deck's length per degree. Errors: words or keys that do not fit the card,
-  !! unreadable values, a first card with a position of its own, a further one without or with a
-  !! law.
+  !! `law=`, of the first card `change_points=`, of a further one else `at=` or `ratio= [phase=]`. A
+  !! ratio of a length to an angle is in the deck's length per degree. Errors: words or keys that do
+  !! not fit the card, unreadable values, a first card with a position of its own, a further one
+  !! without any.
   pure subroutine read_drive(card, first, system, diagnostics, drive)
     type(card_t), intent(in) :: card                  !! the DRIVE card
     type(card_t), intent(in) :: first                 !! the first of the deck, perhaps the same
@@ -115,7 +112,6 @@ contains
 
     type(token_t) :: nowhere
     logical :: fine, known_keys
-    integer :: i
 
     nowhere = token_t("", 0, 0)
     drive%keyword = card%keyword
@@ -136,20 +132,22 @@ contains
       if (known_keys) call read_keys_of_first(card, diagnostics, drive)
       return
     end if
-    do i = 1, size(keys_of_first)
-      if (.not. has_value(card, trim(keys_of_first(i)))) cycle
-      call add_error(diagnostics, key_of(card, trim(keys_of_first(i))), "'"// &
-        trim(keys_of_first(i))//"=' is for the first DRIVE, and this one goes with it by "// &
-        "'ratio=' or stands 'at='", first%keyword, "the first is here")
+    if (has_value(card, "change_points")) then
+      call add_error(diagnostics, key_of(card, "change_points"), "'change_points=' is for the "// &
+        "first DRIVE, and this one goes with it by 'ratio=', stands 'at=' or has a 'law='", &
+        first%keyword, "the first is here")
       return
-    end do
+    end if
+    if (has_value(card, "law")) drive%law = value_of(card, "law")
     call read_position(card, kind_of_drive(first), system, diagnostics, drive)
-    if (.not. known_keys .or. drive%is_free .or. drive%has_at .or. drive%has_ratio) return
+    if (.not. known_keys .or. drive%is_free .or. drive%has_at .or. drive%has_ratio .or. &
+      has_key(card, "law")) return
     ! That the same thing is driven twice is found by `drive_checks`.
     if (drive%kind == kind_of_drive(first) .and. same_word(drive%subject%text, &
       first%words(1)%text)) return
     call add_error(diagnostics, drive%subject, "the linkage is driven already; a further DRIVE "// &
-      "needs a freedom of its own (a linkage of mobility 1 takes one) and 'at=' or 'ratio='", &
+      "needs a freedom of its own (a linkage of mobility 1 takes one) and 'at=', 'ratio=' or "// &
+      "'law='", &
       first%words(1), "first driven here")
   end subroutine read_drive
 
@@ -227,8 +225,12 @@ contains
     end if
     do i = 1, size(card%entries)
       associate (key => card%entries(i)%key)
-        if (drive%has_at .and. (same_word(key%text, "ratio") .or. same_word(key%text, "phase"))) &
-          then
+        if (drive%law%line > 0 .and. (same_word(key%text, "at") .or. same_word(key%text, &
+          "ratio") .or. same_word(key%text, "phase"))) then
+          call add_error(diagnostics, key, "'"//key%text//"=' has no meaning beside 'law='")
+          return
+        else if (drive%has_at .and. (same_word(key%text, "ratio") .or. same_word(key%text, &
+          "phase"))) then
           call add_error(diagnostics, key, "'"//key%text//"=' has no meaning beside 'at='")
           return
         else if (same_word(key%text, "phase") .and. .not. drive%has_ratio) then

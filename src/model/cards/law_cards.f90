@@ -1,4 +1,4 @@
-!> LAW cards: how the first drive moves in time; and the TIME card. What a law as a whole is, and
+!> LAW cards: how a drive moves in time; and the TIME card. What a law as a whole is, and
 !! whether it is one, `law_checks` finds.
 module law_cards
   use card_reader, only: check_form, has_key, has_value, read_choice, read_entry_quantity, &
@@ -46,7 +46,7 @@ contains
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(law_card_t), intent(out) :: law              !! as read
-    logical, intent(in) :: by_length                  !! the first drive is a slider or a ram
+    logical, intent(in) :: by_length                  !! it is of a drive of a slider or a ram
 
     type(token_t) :: nowhere
     logical :: fine, known_keys
@@ -131,7 +131,7 @@ contains
       "it starts here")
   end subroutine read_segment
 
-  !> Reads a position of the first drive: an angle in degrees to the last digit, or a length.
+  !> Reads a position of a drive: an angle in degrees to the last digit, or a length.
   pure subroutine read_position(card, key, by_length, system, required, diagnostics, value, word, &
     fine)
     type(card_t), intent(in) :: card

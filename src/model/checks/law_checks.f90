@@ -1,16 +1,18 @@
-!> The law of the first drive: found from LAW cards, and its positions, speeds and accelerations at
-!! the instants of TIME.
+!> Laws of drives: found from LAW cards, and the positions, speeds and accelerations of the first
+!! drive at the instants of TIME.
 module law_checks
   use card_table, only: pattern_of
   use cards, only: card_t
   use constants, only: degree
   use cubic_splines, only: ends_at_rest, ends_not_a_knot, ends_periodic, new_cubic_spline
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
+  use drive_cards, only: moves_along
   use kinds, only: wp
   use law_cards, only: law_card_t, table_free, table_periodic, table_rest
-  use models, only: drives_length, model_t
+  use models, only: drives_length, model_t, runs_in_time
   use motion_laws, only: law_ramp, motion_segment_t
-  use motion_programs, only: program_values
+  use motion_programs, only: motion_program_t, program_values
+  use report_cards, only: report_t
   use report_kinds, only: report_kind_t
   use sorting, only: ascending_order
   use spelling, only: suggestion
@@ -21,58 +23,161 @@ module law_checks
   implicit none (type, external)
   private
 
-  public :: find_law, refuse_reports_of_law
+  public :: find_laws, refuse_reports_of_law
 
   !> Instants that are nearer to each other, relative to a segment, are one; and so with positions
   !! relative to themselves: what is left by conversions of units.
   real(wp), parameter :: rounding = 1.0e-12_wp
 
+  !> Why reports do not serve several laws.
+  character(len=*), parameter :: of_first = "is about the way of the first drive alone, and "// &
+    "here several drives have laws; "
+
 contains
 
-  !> Puts the motion of the first drive by its law into a model: positions in place of those of
-  !! CRANK, speed and acceleration at every instant of TIME.
+  !> Puts the motion of drives by their laws into a model: positions of the first one in place of
+  !! those of CRANK, its speed and acceleration at every instant of TIME. Where further drives have
+  !! laws, instants take the place of positions.
   !!
   !! Errors: TIME without a law; CRANK and SPEED beside one, and VARY time; a law without cards;
   !! segments that overlap, a first one that does not say where it begins, later ones that begin
   !! elsewhere than the one before ends; a table beside segments or another table, with less than
-  !! two rows, with an instant beyond its ends. Warnings: a law that no DRIVE uses, a ramp that
-  !! begins or ends with a jump of the velocity.
-  subroutine find_law(cards, diagnostics, model)
+  !! two rows, with an instant beyond its ends. Of laws of further drives: the first one has none;
+  !! one law of an angle and a length; a rule for change points. Warnings: a law that no DRIVE uses,
+  !! a ramp that begins or ends with a jump of the velocity.
+  subroutine find_laws(cards, diagnostics, model)
     type(card_t), intent(in) :: cards(:)              !! (cards) all of the deck
     type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
     type(model_t), intent(inout) :: model             !! with its cards read
 
-    type(law_card_t), allocatable :: own_cards(:)
     type(token_t) :: word
     logical :: fine
+    integer :: i
 
-    word = token_t("", 0, 0)
-    if (size(model%drives) > 0) word = model%drives(1)%law
-    call warn_of_idle_laws(diagnostics, model, word)
-    if (word%line == 0) then
+    call warn_of_idle_laws(diagnostics, model)
+    if (.not. any(model%drives%law%line > 0)) then
       call refuse_cards(cards, ["TIME "], "TIME is for a drive with a law, which no DRIVE has "// &
         "(DRIVE ... law=)", diagnostics)
       return
     end if
     allocate (model%law_rates(2, 0))
+    word = model%drives(1)%law
+    if (word%line == 0) then
+      word = model%drives(findloc(model%drives%law%line > 0, .true., dim=1))%law
+      call add_error(diagnostics, word, "a law of a further drive needs one of the first, "// &
+        "which has its positions from CRANK; expected 'law=' on the first DRIVE, or 'ratio=' "// &
+        "or 'at=' here", model%drives(1)%keyword, "the first is here")
+      return
+    end if
     call refuse_cards(cards, ["CRANK", "SPEED"], &
       "the rows of tables are those of the instants of TIME", diagnostics, word)
     call refuse_time_as_name(cards, diagnostics)
-    call find_own_cards(model, word, own_cards)
-    if (size(own_cards) == 0) then
-      if (.not. has_errors(diagnostics)) call add_error(diagnostics, word, "there is no law '"// &
-        word%text//"'"//suggestion(word%text, law_names(model))//"; expected: "// &
-        pattern_of("LAW"))
-      return
+    if (runs_in_time(model)) then
+      call refuse_rule_of_change_points(diagnostics, model)
+      call refuse_laws_of_both(diagnostics, model)
+      allocate (model%programs(size(model%drives)))
     end if
+    fine = .true.
+    do i = 1, size(model%drives)
+      if (model%drives(i)%law%line > 0) call find_law(cards, i, diagnostics, model, fine)
+    end do
+    if (fine) call put_motion(model)
+  end subroutine find_laws
+
+  !> The law of a drive.
+  subroutine find_law(cards, number, diagnostics, model, fine)
+    type(card_t), intent(in) :: cards(:)
+    integer, intent(in) :: number !! of the drive, which has one
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(inout) :: model
+    logical, intent(inout) :: fine !! all laws so far are known
+
+    type(law_card_t), allocatable :: own_cards(:)
+    type(motion_program_t) :: program
+    type(diagnostics_t) :: told
+    logical :: is_known, alone
+    integer :: i
+
+    associate (word => model%drives(number)%law)
+      call find_own_cards(model, word, own_cards)
+      if (size(own_cards) == 0) then
+        fine = .false.
+        if (.not. has_errors(diagnostics)) call add_error(diagnostics, word, "there is no law '"// &
+          word%text//"'"//suggestion(word%text, law_names(model))//"; expected: "// &
+          pattern_of("LAW"))
+        return
+      end if
+      ! What is wrong with a law is told once.
+      is_known = .false.
+      do i = 1, number - 1
+        is_known = is_known .or. same_word(model%drives(i)%law%text, word%text)
+      end do
+    end associate
+    if (is_known) then
+      call read_law_cards(cards, own_cards, number, told, model, program, alone)
+    else
+      call read_law_cards(cards, own_cards, number, diagnostics, model, program, alone)
+    end if
+    fine = fine .and. alone
+    if (.not. alone) return
+    if (number == 1) model%program = program
+    if (allocated(model%programs)) model%programs(number) = program
+  end subroutine find_law
+
+  !> The program of the cards of a law.
+  subroutine read_law_cards(cards, own_cards, number, diagnostics, model, program, fine)
+    type(card_t), intent(in) :: cards(:)
+    type(law_card_t), intent(in) :: own_cards(:) !! in the order of their starts
+    integer, intent(in) :: number                !! of the drive
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(motion_program_t), intent(out) :: program
+    logical, intent(out) :: fine
+
     call refuse_tables_beside(own_cards, diagnostics, fine)
     if (.not. fine) return
     if (own_cards(1)%table_word%line > 0) then
-      call take_table(cards, own_cards(1), diagnostics, model)
+      call take_table(cards, own_cards(1), moves_along(model%drives(number)%kind), diagnostics, &
+        model, program, fine)
     else
-      call take_segments(own_cards, diagnostics, model)
+      call take_segments(own_cards, diagnostics, program, fine)
     end if
-  end subroutine find_law
+  end subroutine read_law_cards
+
+  !> Errors: a law is that of an angle and of a length.
+  pure subroutine refuse_laws_of_both(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i, k
+
+    do i = 2, size(model%drives)
+      if (model%drives(i)%law%line == 0) cycle
+      do k = 1, i - 1
+        if (.not. same_word(model%drives(k)%law%text, model%drives(i)%law%text)) cycle
+        if (moves_along(model%drives(k)%kind) .eqv. moves_along(model%drives(i)%kind)) cycle
+        call add_error(diagnostics, model%drives(i)%law, "the law '"// &
+          model%drives(i)%law%text//"' is one of "//trim(merge("lengths", "angles ", &
+          moves_along(model%drives(k)%kind)))//" already; expected another law", &
+          model%drives(k)%law, "it is that of '"//model%drives(k)%subject%text//"' here")
+        exit
+      end do
+    end do
+  end subroutine refuse_laws_of_both
+
+  !> Errors: a rule for change points beside laws of several drives.
+  pure subroutine refuse_rule_of_change_points(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: second
+
+    if (model%drives(1)%change_points == 0 .or. model%drives(1)%change_points == 3) return
+    second = 1 + findloc(model%drives(2:)%law%line > 0, .true., dim=1)
+    call add_error(diagnostics, model%drives(1)%change_points_word, "links keep their sides "// &
+      "where several drives have laws; expected no 'change_points='", model%drives(second)%law, &
+      "the law of another drive is here")
+  end subroutine refuse_rule_of_change_points
 
   !> Errors: cards that do not go with the motion of the first drive.
   pure subroutine refuse_cards(cards, keywords, message, diagnostics, law)
@@ -149,19 +254,21 @@ contains
     end do
   end function law_names
 
-  !> Warnings: a law is not that of the first drive; once for each.
-  pure subroutine warn_of_idle_laws(diagnostics, model, word)
+  !> Warnings: a law is that of no drive; once for each.
+  pure subroutine warn_of_idle_laws(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
-    type(token_t), intent(in) :: word
 
     integer :: i, k
     logical :: told
 
     do i = 1, size(model%laws)
       associate (name => model%laws(i)%name)
-        if (name%line == 0 .or. same_word(name%text, word%text)) cycle
+        if (name%line == 0) cycle
         told = .false.
+        do k = 1, size(model%drives)
+          told = told .or. same_word(model%drives(k)%law%text, name%text)
+        end do
         do k = 1, i - 1
           told = told .or. same_word(model%laws(k)%name%text, name%text)
         end do
@@ -192,14 +299,14 @@ contains
   end subroutine refuse_tables_beside
 
   !> A law of segments.
-  pure subroutine take_segments(own_cards, diagnostics, model)
+  pure subroutine take_segments(own_cards, diagnostics, program, fine)
     type(law_card_t), intent(in) :: own_cards(:) !! in the order of their starts
     type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(inout) :: model
+    type(motion_program_t), intent(inout) :: program
+    logical, intent(out) :: fine
 
     type(motion_segment_t) :: segments(size(own_cards))
     integer :: i, before
-    logical :: fine
 
     fine = .true.
     do i = 1, size(own_cards)
@@ -231,8 +338,7 @@ contains
     end do
     if (.not. fine) return
     call warn_of_jumps(own_cards, segments, diagnostics)
-    model%program%segments = segments
-    call put_motion(model)
+    program%segments = segments
   end subroutine take_segments
 
   !> Warnings: the velocity of a ramp is not that of what is before it or behind it.
@@ -274,23 +380,26 @@ contains
 
   !> A law by a table of positions over time: a cubic spline. Of a periodic one the position may be
   !! farther on after every period, by as much as the last row differs from the first.
-  pure subroutine take_table(cards, card, diagnostics, model)
+  pure subroutine take_table(cards, card, of_length, diagnostics, model, program, fine)
     type(card_t), intent(in) :: cards(:)
     type(law_card_t), intent(in) :: card
+    logical, intent(in) :: of_length !! its positions are lengths
     type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(inout) :: model
+    type(model_t), intent(in) :: model
+    type(motion_program_t), intent(inout) :: program
+    logical, intent(out) :: fine
 
     integer, parameter :: ends(3) = [ends_not_a_knot, ends_at_rest, ends_periodic]
     type(number_table_t) :: table
     real(wp) :: slope, first, last
     integer :: dimensions(4, 2), i
-    logical :: fine
 
     dimensions(:, 1) = dimension_time
-    dimensions(:, 2) = merge(dimension_length, dimension_angle, drives_length(model))
+    dimensions(:, 2) = merge(dimension_length, dimension_angle, of_length)
     call read_table(cards, card%table_word, "time and position", dimensions, diagnostics, table, &
       fine)
     if (.not. fine) return
+    fine = .false.
     associate (rows => size(table%values, 2), time => model%time)
       if (rows < 2) then
         call add_error(diagnostics, card%table_word, &
@@ -303,13 +412,11 @@ contains
       if (card%ends == table_periodic) slope = (table%values(2, rows) - table%values(2, 1))/ &
         (last - first)
       ! The last row of a periodic table without its slope is the first one, to the last digit.
-      associate (program => model%program)
-        program%rate = slope
-        program%rests = card%ends == table_rest
-        program%spline = new_cubic_spline(table%values(1, :), [table%values(2, :rows - 1) - &
-          slope*(table%values(1, :rows - 1) - first), merge(table%values(2, 1), &
-          table%values(2, rows), card%ends == table_periodic)], ends(card%ends))
-      end associate
+      program%rate = slope
+      program%rests = card%ends == table_rest
+      program%spline = new_cubic_spline(table%values(1, :), [table%values(2, :rows - 1) - &
+        slope*(table%values(1, :rows - 1) - first), merge(table%values(2, 1), &
+        table%values(2, rows), card%ends == table_periodic)], ends(card%ends))
       do i = 1, size(time%value)
         associate (t => time%value(i))
           if (card%ends /= table_free .or. (t >= first .and. t <= last)) cycle
@@ -322,11 +429,11 @@ contains
         end associate
       end do
     end associate
-    call put_motion(model)
+    fine = .true.
   end subroutine take_table
 
-  !> Puts positions, speeds and accelerations of the law into a model; its positions have the places
-  !! of their instants.
+  !> Puts positions, speeds and accelerations of the first drive into a model; its positions have
+  !! the places of their instants. In time instants are positions.
   pure subroutine put_motion(model)
     type(model_t), intent(inout) :: model !! with the law
 
@@ -338,6 +445,10 @@ contains
     end do
     scale = degree
     if (drives_length(model)) scale = 1.0_wp
+    if (runs_in_time(model)) then
+      model%law_places = motion(0, :)
+      motion(0, :) = model%time%value
+    end if
     model%crank%value = motion(0, :)
     model%crank%written = motion(0, :)
     model%crank%word = model%time%word
@@ -345,32 +456,66 @@ contains
     model%law_rates = scale*motion(1:, :)
   end subroutine put_motion
 
-  !> Errors: a report that is about constant speed, or moves the first drive otherwise.
+  !> Errors: a report that is about constant speed, or moves the first drive otherwise; one about
+  !! the way of the first drive alone, where several have laws.
   pure subroutine refuse_reports_of_law(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(inout) :: model             !! with a law, and its reports chosen
 
     character(len=:), allocatable :: reason
-    integer :: i
+    integer :: i, with_law
 
     do i = 1, size(model%reports)
       associate (report => model%reports(i))
-        if (report%kind%name == "transient") cycle
-        if (report%kind%name == "motion") then
-          reason = "moves the first drive by its motor, not by a law"
-        else if (report%kind%response .or. report%kind%name == "sizing") then
-          reason = "is about a crank at constant speed, not about one that moves by a law"
-        else if (report%kind%beams) then
-          reason = "is about positions and speeds of CRANK and SPEED, not about a law"
-        else
-          cycle
-        end if
+        reason = reason_against(model, report)
+        if (len(reason) == 0) cycle
+        ! What several laws leave to one alone is against the further ones.
+        with_law = 1 + findloc(model%drives(2:)%law%line > 0, .true., dim=1)
+        if (index(reason, of_first) == 0) with_law = 1
         call add_error(diagnostics, report%keyword, "REPORT "//trim(report%kind%name)//" "// &
-          reason, model%drives(1)%law, "the law is given here")
+          reason, model%drives(with_law)%law, "the law is given here")
         ! What it would need is not asked for.
         report%kind = report_kind_t()
       end associate
     end do
   end subroutine refuse_reports_of_law
+
+  !> Why a report does not serve a law; empty if it does.
+  pure function reason_against(model, report) result(reason)
+    type(model_t), intent(in) :: model
+    type(report_t), intent(in) :: report
+    character(len=:), allocatable :: reason
+
+    reason = ""
+    if (runs_in_time(model)) then
+      select case (trim(report%kind%name))
+      case ("linkage", "equilibrium")
+        reason = of_first//"expected them on DRIVE cards with 'ratio=' or 'at=', and CRANK"
+      case ("geometry")
+        reason = of_first//"REPORT pins has all places at the instants of TIME"
+      case ("lagrange")
+        reason = of_first//"REPORT drives has the torque of every drive"
+      case ("balance")
+        reason = of_first//"REPORT frame and drives have the shaking force"
+      case ("transient")
+        reason = of_first//"expected 'law=' on the first DRIVE alone"
+      end select
+      if (len(reason) > 0) return
+      if (report%ratio_to%line > 0) reason = "with 'ratio_to=' "//of_first//"rates have no "// &
+        "ratio that a position tells"
+      if (len(reason) > 0) return
+    end if
+    if (report%kind%name == "transient") return
+    if (report%kind%name == "sizing") then
+      if (report%fluctuation > 0.0_wp) reason = "with 'fluctuation=' is about a crank at "// &
+        "constant mean speed, not about one that moves by a law; expected no 'fluctuation='"
+    else if (report%kind%name == "motion") then
+      reason = "moves the first drive by its motor, not by a law"
+    else if (report%kind%response) then
+      reason = "is about a crank at constant speed, not about one that moves by a law"
+    else if (report%kind%beams) then
+      reason = "is about positions and speeds of CRANK and SPEED, not about a law"
+    end if
+  end function reason_against
 
 end module law_checks

@@ -63,9 +63,10 @@ contains
     end if
     ! A speed of 0, the default, is no speed for a steady state.
     if (has_law(model)) then
-      if (report_number(model, "transient") > 0 .and. .not. needs_positions(model) .and. &
-        .not. has_card(cards, "TIME")) call add_error(diagnostics, model%drives(1)%law, &
-        "the first drive moves by a law, and there is no TIME card; expected: "//pattern_of("TIME"))
+      if (max(report_number(model, "transient"), report_number(model, "sizing")) > 0 .and. &
+        .not. needs_positions(model) .and. .not. has_card(cards, "TIME")) call &
+        add_error(diagnostics, model%drives(1)%law, "the first drive moves by a law, and there "// &
+        "is no TIME card; expected: "//pattern_of("TIME"))
     else if (needs_response(model) .and. .not. has_card(cards, "SPEED")) then
       call add_error(diagnostics, model%reports(findloc(model%reports%kind%response, .true., &
         dim=1))%keyword, "this report needs a turning crank, and there is no SPEED card; "// &

@@ -5,12 +5,12 @@ module sizing_report
   use joints_report, only: add_open_row, joint_owners, owner_cell
   use kinds, only: wp
   use load_notes, only: acceleration_note, append_load_notes
-  use models, only: report_number
+  use models, only: has_law, model_t, report_number
   use motor_cards, only: is_geared
   use pins_report, only: pin_names
   use report_kinds, only: report_kind_t
-  use report_types, only: add_table, report_record_t, table_plan_t, whole_table_t
-  use sizing_study, only: sized_t, sizing_t
+  use report_types, only: add_table, fit_columns, report_record_t, table_plan_t, whole_table_t
+  use sizing_study, only: sized_t, sizing_result_t, sizing_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
@@ -24,8 +24,9 @@ module sizing_report
 
   character(len=*), parameter :: quantity_words(*) = [character(len=20) :: "peak_torque", &
     "rms_torque", "mean_torque", "peak_force", "rms_force", "mean_force", "cubic_mean_force", &
-    "equivalent_force", "angle_at_peak", "rate", "peak_power", "mean_power", "flywheel", &
-    "energy_of_cycle", "fluctuation_without", "fluctuation", "greatest_rate", "least_rate"]
+    "equivalent_force", "angle_at_peak", "rate", "peak_rate", "rms_rate", "peak_power", &
+    "mean_power", "flywheel", "energy_of_cycle", "fluctuation_without", "fluctuation", &
+    "greatest_rate", "least_rate"]
 
   !> Names of quantities whose units the deck's results have.
   character(len=*), parameter :: unit_words(*) = [character(len=8) :: "moment", "force", "rate", &
@@ -39,7 +40,7 @@ module sizing_report
     character(len=20) :: quantity    !! one of `quantity_words`
     real(wp) :: value                !! [SI] or [deg]
     character(len=8) :: unit         !! one of `unit_words`, `deg` or `1`
-    real(wp) :: crank = 0.0_wp       !! where it is; 0 without a place
+    real(wp) :: crank = 0.0_wp       !! where it is, of laws the time; 0 without a place
     real(wp) :: error = 0.0_wp       !! estimated, a share of the peak
   end type value_t
 
@@ -47,6 +48,7 @@ module sizing_report
   type, extends(whole_table_t) :: sizing_table_t
   contains
     procedure, nopass :: find_notes => sizing_notes
+    procedure, nopass :: fit => fit_sizing
     procedure, nopass :: plan => plan_sizing
     procedure, nopass :: add_all => add_sizing
   end type sizing_table_t
@@ -68,15 +70,16 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its sizing found
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
+    character(len=5) :: place
+
+    place = merge("time ", "crank", has_law(variant%model))
     associate (found => variant%found%sizing, report => variant%model%reports(report_number( &
         variant%model, "sizing")))
-      if (.not. allocated(found%error)) call append_string(notes, "over a cycle of "// &
-        to_string(found%period, 6)//" deg of the first drive at constant speed: "// &
-        to_string(found%samples)//" samples, peaks enclosed between them")
+      if (.not. allocated(found%error)) call append_string(notes, cycle_note(variant, found))
       call append_string(notes, "peak: greatest absolute value, of drives with its sign; "// &
-        "crank: where it is, 0 in rows without a place; cubic_mean_force: cube root of the "// &
-        "mean of |F|^3 over the cycle; equivalent_force: the same weighted by the rate at "// &
-        "which the joint turns or slides, cube root of (integral of |F|^3 |v|)/(integral of "// &
+        trim(place)//": where it is, 0 in rows without a place; cubic_mean_force: cube root "// &
+        "of the mean of |F|^3 over the cycle; equivalent_force: the same weighted by the rate "// &
+        "at which the joint turns or slides, cube root of (integral of |F|^3 |v|)/(integral of "// &
         "|v|), by ISO 281 the constant load of the same life of a ball "// &
         "bearing; none where a joint is at rest; v of a link at a pin is that against the "// &
         "ground, the block or the other link, where there are more against the first one")
@@ -94,6 +97,25 @@ contains
     call append_string(notes, acceleration_note(variant%model))
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine sizing_notes
+
+  !> Over what cycle all values are.
+  pure function cycle_note(variant, found) result(note)
+    type(variant_results_t), intent(in) :: variant
+    type(sizing_result_t), intent(in) :: found !! its sizing
+    character(len=:), allocatable :: note
+
+    if (.not. has_law(variant%model)) then
+      note = "over a cycle of "//to_string(found%period, 6)//" deg of the first drive at "// &
+        "constant speed: "//to_string(found%samples)//" samples, peaks enclosed between them"
+    else if (found%repeats) then
+      note = "over a period of "//to_string(found%period, 6)//" s of the laws: "// &
+        to_string(found%samples)//" samples, peaks enclosed between them"
+    else
+      note = "over the "//to_string(found%samples)//" instants of TIME, "// &
+        to_string(found%period, 6)//" s, as the cycle: peaks are the greatest values at "// &
+        "instants, means those of straight lines between them"
+    end if
+  end function cycle_note
 
   !> What the flywheel does.
   pure subroutine append_flywheel_notes(fluctuation, has_rotor, notes)
@@ -167,7 +189,7 @@ contains
 
     associate (found => variant%found%sizing)
       if (allocated(found%error)) then
-        call add_failed_row(rows, [variant%model%shown_speed(speed)], found%error%text)
+        call add_failed_row(rows, place_of(variant, speed), found%error%text)
         return
       end if
       associate (at_speed => found%at_speed(speed))
@@ -175,7 +197,7 @@ contains
           if (at_speed%sized(s)%drive > 0) then
             call add_drive(variant, layout, speed, at_speed%sized(s), rows)
           else if (found%is_open(at_speed%sized(s)%joint)) then
-            call add_open_row(rows, [variant%model%shown_speed(speed)], variant, &
+            call add_open_row(rows, place_of(variant, speed), variant, &
               found%joints(at_speed%sized(s)%joint))
           else
             call add_joint(variant, layout, speed, at_speed%sized(s), rows)
@@ -196,7 +218,7 @@ contains
 
     character(len=6) :: word
     character(len=8) :: unit, unit_of_rate
-    character(len=:), allocatable :: part
+    character(len=:), allocatable :: part, names
 
     part = variant%model%drives(sized%drive)%subject%text
     if (sized%is_motor) part = motor_word
@@ -208,14 +230,24 @@ contains
       unit = "force"
       unit_of_rate = "velocity"
     end if
-    call put_rows(variant, layout, speed, name_cell(part, column_width(layout, 2))// &
-      name_cell(no_pin, column_width(layout, 3)), &
-      [value_t("peak_"//word, sized%peak, unit, sized%crank, sized%error), &
-      value_t("rms_"//word, sized%rms, unit, error=sized%error), &
-      value_t("mean_"//word, sized%mean, unit, error=sized%error), &
-      value_t("rate", sized%rate, unit_of_rate), &
-      value_t("peak_power", sized%peak*sized%rate, "power", sized%crank, sized%error), &
-      value_t("mean_power", sized%mean*sized%rate, "power", error=sized%error)], rows)
+    names = name_cell(part, column_width(layout, first_column(variant%model)))// &
+      name_cell(no_pin, column_width(layout, first_column(variant%model) + 1))
+    call put_rows(variant, layout, speed, names, [value_t("peak_"//word, sized%peak, unit, &
+      sized%crank, sized%error), value_t("rms_"//word, sized%rms, unit, error=sized%error), &
+      value_t("mean_"//word, sized%mean, unit, error=sized%error)], rows)
+    if (has_law(variant%model)) then
+      associate (timed => sized%timed)
+        call put_rows(variant, layout, speed, names, &
+          [value_t("peak_rate", sized%rate, unit_of_rate, timed%rate_at, timed%error(1)), &
+          value_t("rms_rate", timed%rms_rate, unit_of_rate, error=timed%error(1)), &
+          value_t("peak_power", timed%peak_power, "power", timed%power_at, timed%error(2)), &
+          value_t("mean_power", timed%mean_power, "power", error=timed%error(2))], rows)
+      end associate
+    else
+      call put_rows(variant, layout, speed, names, [value_t("rate", sized%rate, unit_of_rate), &
+        value_t("peak_power", sized%peak*sized%rate, "power", sized%crank, sized%error), &
+        value_t("mean_power", sized%mean*sized%rate, "power", error=sized%error)], rows)
+    end if
   end subroutine add_drive
 
   !> The rows of a joint.
@@ -226,18 +258,21 @@ contains
     type(sized_t), intent(in) :: sized
     type(rows_t), intent(inout) :: rows
 
+    character(len=:), allocatable :: names
+    integer :: first
+
+    first = first_column(variant%model)
     associate (joint => variant%found%sizing%joints(sized%joint))
-      call put_rows(variant, layout, speed, owner_cell(variant, joint, column_width(layout, 2))// &
-        name_cell(variant%mechanism%pin_names(joint%pin)%text, column_width(layout, 3)), &
+      names = owner_cell(variant, joint, column_width(layout, first))// &
+        name_cell(variant%mechanism%pin_names(joint%pin)%text, column_width(layout, first + 1))
+      call put_rows(variant, layout, speed, names, &
         [value_t("peak_force", sized%peak, "force", sized%crank, sized%error), &
         value_t("angle_at_peak", sized%angle, "deg", sized%crank, sized%angle_error), &
         value_t("rms_force", sized%rms, "force", error=sized%error), &
         value_t("mean_force", sized%mean, "force", error=sized%error), &
         value_t("cubic_mean_force", sized%cubic, "force", error=sized%error)], rows)
-      if (sized%turns) call put_rows(variant, layout, speed, owner_cell(variant, joint, &
-        column_width(layout, 2))//name_cell(variant%mechanism%pin_names(joint%pin)%text, &
-        column_width(layout, 3)), [value_t("equivalent_force", sized%turned_cubic, "force", &
-        error=sized%turned_error)], rows)
+      if (sized%turns) call put_rows(variant, layout, speed, names, [value_t("equivalent_force", &
+        sized%turned_cubic, "force", error=sized%turned_error)], rows)
     end associate
   end subroutine add_joint
 
@@ -278,8 +313,9 @@ contains
     type(unit_t) :: measure
     character(len=:), allocatable :: unit
     real(wp) :: shown
-    integer :: i
+    integer :: i, first
 
+    first = first_column(variant%model)
     do i = 1, size(values)
       shown = values(i)%value
       unit = trim(values(i)%unit)
@@ -288,12 +324,39 @@ contains
         shown = from_si(shown, measure)
         unit = measure%name
       end if
-      call add_row(rows, cells(layout, 1, [variant%model%shown_speed(speed)])//names// &
-        name_cell(trim(values(i)%quantity), column_width(layout, 4))//cells(layout, 5, [shown])// &
-        name_cell(unit, column_width(layout, 6))//cells(layout, 7, [values(i)%crank, &
-        values(i)%error]))
+      call add_row(rows, cells(layout, 1, place_of(variant, speed))//names// &
+        name_cell(trim(values(i)%quantity), column_width(layout, first + 2))//cells(layout, &
+        first + 3, [shown])//name_cell(unit, column_width(layout, first + 4))//cells(layout, &
+        first + 5, [values(i)%crank, values(i)%error]))
     end do
   end subroutine put_rows
+
+  !> The column of parts: the first of all where laws leave no speed to tell.
+  pure function first_column(model) result(column)
+    type(model_t), intent(in) :: model
+    integer :: column
+
+    column = merge(1, 2, has_law(model))
+  end function first_column
+
+  !> What a row begins with: the speed, where there is one.
+  pure function place_of(variant, speed) result(place)
+    type(variant_results_t), intent(in) :: variant
+    integer, intent(in) :: speed
+    real(wp) :: place(first_column(variant%model) - 1)
+
+    place = variant%model%shown_speed(speed)
+  end function place_of
+
+  !> Of laws no speed, and times in place of positions.
+  pure subroutine fit_sizing(model, columns)
+    type(model_t), intent(in) :: model         !! with its drives
+    character(len=*), intent(inout) :: columns !! of the record
+
+    if (has_law(model)) columns = "part,pin,quantity:name value:see_unit unit:name "// &
+      "time:time error:-"
+    call fit_columns(model, columns)
+  end subroutine fit_sizing
 
   !> Names of parts and quantities.
   subroutine plan_sizing(variant, plan)

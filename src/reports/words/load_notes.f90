@@ -5,7 +5,7 @@ module load_notes
   use link_cards, only: has_own_mass
   use load_words, only: process_words
   use mechanisms, only: mechanism_t
-  use models, only: drives_length, has_law, model_t
+  use models, only: drives_length, has_law, model_t, runs_in_time
   use spring_words, only: spring_lines
   use text, only: append_string, plural, string_t, to_string
   use units, only: coherent_unit, dimension_acceleration, from_si, unit_t
@@ -169,6 +169,8 @@ contains
 
     if (model%is_structure) then
       note = "structure: one position, at rest; speed and crank are 0"
+    else if (runs_in_time(model)) then
+      note = "motion: "//laws_of_drives(model)
     else if (has_law(model)) then
       note = "speed and acceleration of the first drive: by law "//model%drives(1)%law%text
     else if (drives_length(model)) then
@@ -178,6 +180,21 @@ contains
       note = "angular acceleration of the crank: "//to_string(model%acceleration)//" rad/s2"
     end if
   end function acceleration_note
+
+  !> `drive upper by law a, drive fore by law b`
+  pure function laws_of_drives(model) result(words)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: words
+
+    integer :: i
+
+    words = ""
+    do i = 1, size(model%drives)
+      if (model%drives(i)%law%line == 0) cycle
+      if (len(words) > 0) words = words//", "
+      words = words//"drive "//model%drives(i)%subject%text//" by law "//model%drives(i)%law%text
+    end do
+  end function laws_of_drives
 
   pure function name_of_acceleration(model) result(name)
     type(model_t), intent(in) :: model

@@ -1,7 +1,7 @@
 !> Blocks that leave the links along which they slide: at which positions, told before the run.
 module block_checks
   use coordinates, only: coordinate_value, slider_coordinate
-  use deck_lengths, only: crank_text, length_text
+  use deck_lengths, only: crank_text, length_text, word_of_positions
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use errors, only: error_of_reach, error_t
   use kinds, only: wp
@@ -58,7 +58,8 @@ contains
             " at all these positions, by "//length_text(model, minval(excess), 4)//" or more"// &
             remedy, kind=error_of_reach)
         else
-          call add_warning(diagnostics, model%sliders(number)%on, words//" between crank "// &
+          call add_warning(diagnostics, model%sliders(number)%on, words//" between "// &
+            word_of_positions(model)//" "// &
             intervals(model, mechanism%linkage, number, crank, excess)//", by up to "// &
             length_text(model, maxval(excess), 4)//": "//plural(count(excess > 0.0_wp), &
             "position")//" will be marked as failed"//remedy, kind=warning_of_block, &

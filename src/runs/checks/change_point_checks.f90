@@ -5,7 +5,7 @@ module change_point_checks
   use diagnostics, only: add_warning, diagnostics_t
   use linkages, only: rule_branch
   use mechanisms, only: mechanism_t
-  use models, only: model_t, needs_positions, rule_at_change_points
+  use models, only: model_t, needs_positions, rule_at_change_points, runs_in_time
   use plan_words, only: group_words
   use tokens, only: token_t
   implicit none (type, external)
@@ -27,7 +27,8 @@ contains
     type(change_point_t), allocatable :: points(:)
     integer :: i
 
-    if (rule_at_change_points(model) /= rule_branch .or. .not. needs_positions(model)) return
+    if (rule_at_change_points(model) /= rule_branch .or. .not. needs_positions(model) .or. &
+      runs_in_time(model)) return
     if (model%drives(1)%change_points > 0) return
     call change_points_of(mechanism%linkage, minval(model%crank%value), maxval(model%crank%value), &
       points)

@@ -8,13 +8,13 @@
 !> Lengths and positions in the unit of a deck, as its messages have them.
 module deck_lengths
   use kinds, only: wp
-  use models, only: drives_length, model_t
+  use models, only: drives_length, model_t, runs_in_time
   use text, only: to_string
   use units, only: coherent_unit, dimension_length, from_si, unit_t
   implicit none (type, external)
   private
 
-  public :: in_deck, length_text, missing_text, crank_text, unit_of_crank
+  public :: in_deck, length_text, missing_text, crank_text, unit_of_crank, word_of_positions
 
 contains
 
@@ -50,27 +50,36 @@ contains
       missing > 0.0_wp))
   end function missing_text
 
-  !> The unit of the positions of the first drive in the deck.
+  !> The unit of the positions of the first drive in the deck, in time of instants.
   pure function unit_of_crank(model) result(unit)
     type(model_t), intent(in) :: model !! as read
     character(len=:), allocatable :: unit
 
     type(unit_t) :: measure
 
-    unit = "deg"
-    if (.not. drives_length(model)) return
+    unit = trim(merge("s  ", "deg", runs_in_time(model)))
+    if (.not. drives_length(model) .or. runs_in_time(model)) return
     measure = coherent_unit(model%units, dimension_length)
     unit = measure%name
   end function unit_of_crank
 
-  !> A position of the first drive: in degrees, of a slider or a ram in the unit of the deck.
+  !> `crank`, or in time `time`: what the positions of a deck are.
+  pure function word_of_positions(model) result(word)
+    type(model_t), intent(in) :: model !! as read
+    character(len=:), allocatable :: word
+
+    word = trim(merge("time ", "crank", runs_in_time(model)))
+  end function word_of_positions
+
+  !> A position of the first drive: in degrees, of a slider or a ram in the unit of the deck; in
+  !! time an instant.
   pure function crank_text(model, crank, digits) result(words)
     type(model_t), intent(in) :: model !! as read
     real(wp), intent(in) :: crank      !! [deg] or [m]
     integer, intent(in) :: digits      !! at most
     character(len=:), allocatable :: words
 
-    if (drives_length(model)) then
+    if (drives_length(model) .and. .not. runs_in_time(model)) then
       words = to_string(in_deck(model, crank), digits)
     else
       words = to_string(crank, digits)

@@ -4,7 +4,7 @@ module linkage_checks
   use assembly_faults, only: report_assembly
   use block_checks, only: check_blocks
   use cut_ways, only: ways_under
-  use deck_lengths, only: crank_text
+  use deck_lengths, only: crank_text, word_of_positions
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use division_checks, only: check_coupled_drives, check_shared_forces
   use errors, only: error_of_reach, error_t
@@ -164,7 +164,8 @@ contains
     if (found%number == 0) return
     associate (equation => mechanism%linkage%redundancies(found%number))
       call name_redundancy(model, mechanism, equation, place, subject)
-      amount = misfit_text(model, mechanism, equation, found%first)//" at crank "// &
+      amount = misfit_text(model, mechanism, equation, found%first)//" at "// &
+        word_of_positions(model)//" "// &
         crank_text(model, found%at_first, 10)
       call find_superfluous_drive(mechanism%linkage, found%at_first, mobility, drive)
       if (mobility > 0 .and. drive > 0) then

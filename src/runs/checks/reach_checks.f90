@@ -7,7 +7,7 @@ module reach_checks
   use errors, only: error_of_reach, error_t
   use kinds, only: wp
   use mechanisms, only: mechanism_t
-  use models, only: drives_length, has_law, model_t
+  use models, only: drives_length, has_law, model_t, runs_in_time
   use pose_types, only: pose_t
   use poses, only: place_links
   use reach_texts, only: reach_words
@@ -81,6 +81,7 @@ contains
     real(wp), allocatable :: drawn(:), limits(:, :)
 
     words = ""
+    if (runs_in_time(model)) return
     drawn = starting_cranks(model, mechanism%linkage)
     limits = reachable_intervals(mechanism, [pack(crank%value, closes), drawn(:1)], crank%value)
     if (size(limits) == 0) return

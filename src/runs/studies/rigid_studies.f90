@@ -16,7 +16,8 @@ module rigid_studies
   use kinds, only: wp
   use lagrange_study, only: find_lagrange_terms
   use limits_study, only: find_branches, find_limits
-  use models, only: balances, has_law, is_of_four_bar, model_t, report_number, report_with
+  use models, only: balances, has_law, is_of_four_bar, model_t, report_number, report_with, &
+    runs_in_time
   use named_coordinates, only: limited_coordinates
   use named_parts, only: name_outcomes
   use points_study, only: find_points
@@ -200,7 +201,12 @@ contains
     type(elastic_division_t), allocatable :: division !! absent: statics tells the forces
 
     associate (mechanism => run%results%mechanism, sizing => run%results%found%sizing)
-      call find_division(mechanism%structure_t, division, sizing%error)
+      if (has_law(run%results%model)) then
+        call find_division(mechanism%structure_t, division, sizing%error, &
+          run%results%model%crank%value)
+      else
+        call find_division(mechanism%structure_t, division, sizing%error)
+      end if
       if (allocated(sizing%error)) return
       call find_sizing(mechanism%linkage, mechanism%load_elements, &
         sizing_request_of(run%results%model), run%threads, sizing, division)
@@ -222,7 +228,11 @@ contains
     real(wp), allocatable, intent(out) :: speeds(:, :), accelerations(:, :) !! (speeds, states)
 
     associate (model => variant%model, states => variant%found%positions%states)
-      if (has_law(model)) then
+      if (runs_in_time(model)) then
+        allocate (speeds(1, size(states)), accelerations(1, size(states)))
+        speeds = 1.0_wp
+        accelerations = 0.0_wp
+      else if (has_law(model)) then
         speeds = model%law_rates(1:1, :)
         accelerations = model%law_rates(2:2, :)
       else
@@ -371,7 +381,9 @@ contains
 
     associate (sizing => variant%found%sizing)
       if (allocated(sizing%error)) then
-        if (sizing%period > 0.0_wp) then
+        if (sizing%period > 0.0_wp .and. has_law(variant%model)) then
+          call note_failure(variant, "position", sizing%error, findings, time=sizing%error_crank)
+        else if (sizing%period > 0.0_wp) then
           call note_failure(variant, "position", sizing%error, findings, crank=sizing%error_crank)
         else
           call note_failure(variant, "variant", sizing%error, findings)

@@ -1,5 +1,6 @@
 !> Failures and warnings of studies: what all of them have in common.
 module study_findings
+  use drive_motions, only: first_position
   use errors, only: error_t, outcome_t
   use kinds, only: wp
   use models, only: drives_length, has_law, model_t, speed_in_words
@@ -75,7 +76,7 @@ contains
     type(error_t), intent(in) :: error          !! why
     type(findings_t), intent(inout) :: findings !! to which it is appended
 
-    associate (crank => variant%found%positions%crank(position))
+    associate (crank => first_position(variant%model, position))
       if (has_law(variant%model)) then
         call note_failure(variant, "position", error, findings, crank=crank, &
           time=variant%model%time%value(position))

@@ -13,7 +13,7 @@ module run_log
   use pose_types, only: pins_of_body
   use friction_words, only: friction_lines
   use spring_words, only: spring_lines
-  use text, only: plural, string_t, to_string
+  use text, only: plural, same_word, string_t, to_string
   use units, only: coherent_unit, dimension_acceleration, dimension_length, &
     dimension_inertia, dimension_mass, from_si, unit_t
   implicit none (type, external)
@@ -87,13 +87,31 @@ contains
       text = text//"effects: "//effect_words(model%effects, model%rotary, model%shear)//line_feed
     end if
     if (has_law(model)) then
-      text = text//plural(size(model%time%value), "instant")//" of law "// &
-        model%drives(1)%law%text//line_feed
+      text = text//plural(size(model%time%value), "instant")//" of "//law_text(model)//line_feed
     else if (.not. model%is_structure) then
       text = text//plural(size(model%crank%value), "crank angle")//", "// &
         plural(size(model%speed%value), "speed")//line_feed
     end if
   end function model_summary
+
+  !> `law feed`, or `laws feed, lift`: of the drives in their order, each once.
+  pure function law_text(model) result(text)
+    type(model_t), intent(in) :: model
+    character(len=:), allocatable :: text
+
+    integer :: i, k
+    logical :: is_new
+
+    text = model%drives(1)%law%text
+    do i = 2, size(model%drives)
+      is_new = model%drives(i)%law%line > 0
+      do k = 1, i - 1
+        is_new = is_new .and. .not. same_word(model%drives(k)%law%text, model%drives(i)%law%text)
+      end do
+      if (is_new) text = text//", "//model%drives(i)%law%text
+    end do
+    text = trim(merge("laws", "law ", index(text, ",") > 0))//" "//text
+  end function law_text
 
   !> `A - B - C`: the pins of a link; of a four-bar in the order of the loop.
   pure function way_of(mechanism, body) result(way)

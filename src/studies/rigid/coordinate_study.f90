@@ -51,7 +51,7 @@ contains
     associate (coordinate => linkage%coordinates(number), speed => rates(1), &
         acceleration => rates(2))
       if (coordinate%drive > 0) then
-        state%value = drive_value(linkage%drives(coordinate%drive), crank)
+        state%value = drive_value(linkage, coordinate%drive, crank)
       else
         state%value = coordinate_value(linkage, pose, coordinate, crank)
         if (is_turning(linkage, coordinate)) state%value = state%value/degree

@@ -14,7 +14,7 @@ module joint_study
   use errors, only: error_t, outcome_t
   use frame_forces, only: find_frame_load
   use ground_loads, only: pulls_on_ground
-  use group_equations, only: drive_rate, drive_value
+  use group_equations, only: drive_value, find_rates_of_drives
   use joint_forces, only: force_at_pin, joint_forces_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -487,11 +487,13 @@ contains
                                             !! without these
     real(wp) :: drives(3, size(linkage%drives)) !! [deg, rad/s, N m] or [m, m/s, N]
 
+    real(wp), dimension(size(linkage%drives)) :: rates, accelerations
     integer :: d
 
+    call find_rates_of_drives(linkage, crank, rates, accelerations)
     do d = 1, size(linkage%drives)
-      drives(1, d) = drive_value(linkage%drives(d), crank)
-      drives(2, d) = drive_rate(linkage, d)*speed
+      drives(1, d) = drive_value(linkage, d, crank)
+      drives(2, d) = rates(d)*speed
       drives(3, d) = speed**2*found%drive(d, 1, state) + acceleration*found%drive(d, 2, state) + &
         found%drive(d, 3, state)
     end do

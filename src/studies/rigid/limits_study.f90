@@ -158,8 +158,8 @@ contains
               mine%crank = [range%to, range%from]
               mine%range%blocked_by = range%blocked_by([2, 1])
             end if
-            mine%range%from = drive_value(drive, mine%crank(1))
-            mine%range%to = drive_value(drive, mine%crank(2))
+            mine%range%from = drive_value(linkage, d, mine%crank(1))
+            mine%range%to = drive_value(linkage, d, mine%crank(2))
             found%further = [found%further, mine]
           end associate
         end do
@@ -185,7 +185,7 @@ contains
     alone = linkage
     call leave_path(alone, inside)
     do d = 1, size(alone%drives)
-      alone%drives(d)%phase = drive_value(linkage%drives(d), inside)
+      alone%drives(d)%phase = drive_value(linkage, d, inside)
       alone%drives(d)%ratio = 0.0_wp
     end do
     value = alone%drives(number)%phase

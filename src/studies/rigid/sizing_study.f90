@@ -1,21 +1,24 @@
 !> Ratings of motors, bearings and the flywheel of a linkage over its whole cycle.
 module sizing_study
   use constants, only: degree
-  use cycle_forces, only: cycle_forces_t, sizing_request_t
+  use cycle_forces, only: cycle_forces_t, is_timed, of_forces, of_powers, of_rates, sizing_request_t
   use elastic_reactions, only: elastic_division_t
   use errors, only: error_of_input, error_of_numerics, error_t, set_error
   use flywheels, only: size_flywheel
   use gears, only: gear_t
+  use group_equations, only: drive_value
   use interruption, only: was_interrupted
   use joint_rates, only: joint_rate
-  use joint_study, only: drives_at_speed, joint_t, joints_result_t
+  use joint_study, only: joint_t, joints_result_t
   use kinds, only: wp
   use lagrange_study, only: find_lagrange_terms, lagrange_result_t
   use linkages, only: linkage_t
+  use motion_programs, only: motion_program_t
   use linkage_paths, only: period_of
   use load_tables, only: load_period
-  use positions, only: find_positions, positions_t
+  use positions, only: positions_t
   use sizing_values, only: between_angles, largest_change, settled, sized_t, sizing_t
+  use sorting, only: ascending_order
   implicit none (type, external)
   private
 
@@ -31,14 +34,28 @@ module sizing_study
   !> A joint whose rate is below this share of that of the linkage is at rest: it is round-off.
   real(wp), parameter :: rest = 1.0e-12_wp
 
-  !> Where the peak of a force is flat nothing tells it from positions so near [deg].
+  !> Where the peak of a force is flat nothing tells it from positions so near [deg], of laws in
+  !! 360th parts of the cycle.
   real(wp), parameter :: flatness = 1.0e-4_wp
+
+  !> The places of a cycle at which there are samples.
+  type :: cycle_t
+    real(wp), allocatable :: at(:)    !! (samples) [deg], of laws [s]
+    real(wp), allocatable :: width(:) !! (samples) of the interval behind it, the last behind which
+                                      !! the cycle begins again; any unit
+    real(wp) :: from = 0.0_wp         !! where it begins
+    real(wp) :: period = 0.0_wp       !! its length
+    real(wp) :: unit = 1.0_wp         !! in which peaks are enclosed: 1 deg, or a 360th part of a
+                                      !! cycle in time
+    logical :: repeats = .true.       !! else samples are all that is known of it
+  end type cycle_t
 
   type :: sizing_result_t
     type(error_t), allocatable :: error       !! why there is nothing
-    real(wp) :: error_crank = 0.0_wp          !! where [deg]
+    real(wp) :: error_crank = 0.0_wp          !! where [deg], of laws [s]
     integer :: samples = 0                    !! of the cycle
-    real(wp) :: period = 0.0_wp               !! of the cycle [deg]
+    real(wp) :: period = 0.0_wp               !! of the cycle [deg], of laws [s]
+    logical :: repeats = .true.               !! it is one of a periodic motion, not of instants
     type(joint_t), allocatable :: joints(:)   !! as in `joint_study`
     logical, allocatable :: is_open(:)        !! (joints) the same, anywhere over the cycle
     type(sizing_t), allocatable :: at_speed(:)
@@ -49,8 +66,9 @@ contains
   !> Peaks and means over the cycle for every speed, and flywheels.
   !!
   !! Peaks between samples are enclosed by golden-section search around the three highest samples.
-  !! Errors are estimated by those with half as many samples. Errors: the first drive does not turn
-  !! fully, positions and loads do not repeat, or those of a position.
+  !! Errors are estimated by those with half as many samples. Of laws the cycle is the period of a
+  !! periodic table, or the instants are its samples, and peaks are the greatest of these. Errors:
+  !! the first drive does not turn fully, positions and loads do not repeat, or those of a position.
   subroutine find_sizing(linkage, elements, request, threads, found, division)
     type(linkage_t), intent(in) :: linkage       !! of any kind, with masses
     integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
@@ -62,70 +80,205 @@ contains
                                                  !! divides forces
 
     type(cycle_forces_t) :: forces
+    type(cycle_t) :: span
     type(sizing_t), allocatable :: last(:)
     type(positions_t) :: positions
     type(joints_result_t) :: joints
     real(wp) :: change
-    integer :: k
 
-    found%period = load_period(linkage, period_of(linkage))
-    if (found%period <= 0.0_wp) then
-      call set_error(found%error, error_of_input, "positions and loads do not repeat with the "// &
-        "first drive: there is no cycle")
-      return
-    end if
     forces%linkage = linkage
     forces%elements = elements
     forces%request = request
     if (present(division)) forces%division = division
-    found%samples = fewest_samples*max(1, nint(found%period/360.0_wp))
-    do
-      call find_cycle(forces, threads, found, positions, joints)
+    call choose_cycle(forces, span, found)
+    if (allocated(found%error)) return
+    if (.not. span%repeats) then
+      call take_instants(request%times, .true., span)
+      call size_cycle(forces, span, threads, found, positions, joints)
       if (allocated(found%error)) return
-      if (allocated(found%at_speed)) call move_alloc(found%at_speed, last)
-      allocate (found%at_speed(size(request%speed)))
-      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k)
-      do k = 1, size(request%speed)
-        call size_speed(forces, positions, joints, k, found%at_speed(k))
-      end do
-      !$omp end parallel do
-      if (request%fluctuation > 0.0_wp) call find_flywheels(forces, positions, threads, found)
+      call move_alloc(found%at_speed, last)
+      call take_instants(request%times, .false., span)
+      call size_cycle(forces, span, threads, found, positions, joints)
+      if (.not. allocated(found%error)) change = largest_change(found%at_speed, last)
+      return
+    end if
+    do
+      call take_samples(found%samples, span)
+      call size_cycle(forces, span, threads, found, positions, joints)
+      if (allocated(found%error)) return
+      if (request%fluctuation > 0.0_wp) call find_flywheels(forces, span, positions, threads, found)
       change = huge(change)
       if (allocated(last)) change = largest_change(found%at_speed, last)
       if (change <= settled .or. 2*found%samples > most_samples .or. was_interrupted()) exit
+      call move_alloc(found%at_speed, last)
       found%samples = 2*found%samples
     end do
   end subroutine find_sizing
 
-  !> All positions and joints of the cycle; an error where one of them has no forces.
-  subroutine find_cycle(forces, threads, found, positions, joints)
+  !> What the cycle is: that of the first drive, the common period of all laws, or the instants.
+  subroutine choose_cycle(forces, span, found)
     type(cycle_forces_t), intent(in) :: forces
+    type(cycle_t), intent(out) :: span
+    type(sizing_result_t), intent(inout) :: found
+
+    associate (linkage => forces%linkage, request => forces%request)
+      if (.not. is_timed(request)) then
+        span%period = load_period(linkage, period_of(linkage))
+        if (span%period <= 0.0_wp) call set_error(found%error, error_of_input, &
+          "positions and loads do not repeat with the first drive: there is no cycle")
+        found%samples = fewest_samples*max(1, nint(span%period/360.0_wp))
+      else
+        call find_period_of_laws(forces, span)
+        if (span%repeats) span%repeats = returns(forces, span)
+        if (.not. span%repeats) span%period = maxval(request%times) - minval(request%times)
+        span%unit = span%period/360.0_wp
+        found%samples = merge(fewest_samples, size(request%times), span%repeats)
+        if (.not. span%repeats .and. size(request%times) < 2) call set_error(found%error, &
+          error_of_input, "one instant is no cycle")
+      end if
+    end associate
+    found%period = span%period
+    found%repeats = span%repeats
+  end subroutine choose_cycle
+
+  !> The period that all laws have, tables with periodic ends.
+  pure subroutine find_period_of_laws(forces, span)
+    type(cycle_forces_t), intent(in) :: forces
+    type(cycle_t), intent(inout) :: span
+
+    integer :: d
+
+    if (allocated(forces%request%program)) then
+      call take_period(forces%request%program, span)
+      return
+    end if
+    do d = 1, size(forces%linkage%drives)
+      if (forces%linkage%drives(d)%has_law) call take_period(forces%linkage%drives(d)%law, span)
+    end do
+  end subroutine find_period_of_laws
+
+  !> The period of a law, if it has one that is that of laws before it.
+  pure subroutine take_period(program, span)
+    type(motion_program_t), intent(in) :: program
+    type(cycle_t), intent(inout) :: span
+
+    real(wp), parameter :: rounding = 1.0e-12_wp
+    real(wp) :: period
+
+    if (allocated(program%segments)) then
+      span%repeats = .false.
+      return
+    end if
+    associate (x => program%spline%x)
+      period = x(size(x)) - x(1)
+      if (span%period > 0.0_wp) then
+        span%repeats = span%repeats .and. abs(period - span%period) <= rounding*period
+      else
+        span%from = x(1)
+        span%period = period
+      end if
+    end associate
+    span%repeats = span%repeats .and. program%spline%is_periodic
+  end subroutine take_period
+
+  !> Whether all pins and bodies are after a period where they were, and loads over the turns of the
+  !! first drive what they were.
+  function returns(forces, span)
+    type(cycle_forces_t), intent(in) :: forces
+    type(cycle_t), intent(in) :: span
+    logical :: returns
+
+    real(wp), parameter :: near = 1.0e-9_wp
+    type(positions_t) :: ends
+    real(wp) :: way
+
+    ends = forces%positions_at(span%from + [0.0_wp, span%period])
+    returns = .not. (allocated(ends%states(1)%error) .or. allocated(ends%states(2)%error))
+    if (.not. returns) return
+    associate (first => ends%states(1)%pose, last => ends%states(2)%pose)
+      returns = maxval(abs(last%pin - first%pin)) <= near*maxval(forces%linkage%bodies%length) &
+        .and. maxval(abs(last%direction - first%direction)) <= near
+      way = abs(drive_value(forces%linkage, 1, last%crank) - drive_value(forces%linkage, 1, &
+        first%crank))
+    end associate
+    if (way > near) returns = returns .and. abs(load_period(forces%linkage, way) - way) <= near*way
+  end function returns
+
+  !> Evenly spaced samples of a cycle that repeats.
+  pure subroutine take_samples(number, span)
+    integer, intent(in) :: number
+    type(cycle_t), intent(inout) :: span
+
+    integer :: i
+
+    span%at = [(span%from + span%period*(i - 1)/number, i=1, number)]
+    span%width = [(1.0_wp, i=1, number)]
+  end subroutine take_samples
+
+  !> Instants as the samples of a cycle, all or every second one and the last.
+  pure subroutine take_instants(times, halved, span)
+    real(wp), intent(in) :: times(:)
+    logical, intent(in) :: halved
+    type(cycle_t), intent(inout) :: span
+
+    integer :: n
+
+    n = size(times)
+    span%at = times(ascending_order(times))
+    if (halved) span%at = [span%at(:n - 1:2), span%at(n)]
+    span%width = [span%at(2:) - span%at(:size(span%at) - 1), 0.0_wp]
+  end subroutine take_instants
+
+  !> All forces of a cycle at all speeds; an error where one of its samples has none.
+  subroutine size_cycle(forces, span, threads, found, positions, joints)
+    type(cycle_forces_t), intent(in) :: forces
+    type(cycle_t), intent(in) :: span
     integer, intent(in) :: threads
-    type(sizing_result_t), intent(inout) :: found !! with period and samples
+    type(sizing_result_t), intent(inout) :: found
+    type(positions_t), intent(out) :: positions
+    type(joints_result_t), intent(out) :: joints
+
+    integer :: k
+
+    call find_cycle(forces, span, threads, found, positions, joints)
+    if (allocated(found%error)) return
+    allocate (found%at_speed(size(forces%request%speed)))
+    !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k)
+    do k = 1, size(forces%request%speed)
+      call size_speed(forces, span, positions, joints, k, found%at_speed(k))
+    end do
+    !$omp end parallel do
+  end subroutine size_cycle
+
+  !> All positions and joints of the cycle; an error where one of them has no forces.
+  subroutine find_cycle(forces, span, threads, found, positions, joints)
+    type(cycle_forces_t), intent(in) :: forces
+    type(cycle_t), intent(in) :: span
+    integer, intent(in) :: threads
+    type(sizing_result_t), intent(inout) :: found
     type(positions_t), intent(out) :: positions
     type(joints_result_t), intent(out) :: joints
 
     integer :: i
 
-    positions = find_positions(forces%linkage, [(found%period*(i - 1)/found%samples, i=1, &
-      found%samples)])
-    do i = 1, found%samples
+    positions = forces%positions_at(span%at)
+    do i = 1, size(span%at)
       if (.not. allocated(positions%states(i)%error)) cycle
       found%error = positions%states(i)%error
-      found%error_crank = positions%states(i)%crank
+      found%error_crank = span%at(i)
       return
     end do
-    call forces%find_joints_at(positions, threads, joints)
-    do i = 1, found%samples
+    call forces%find_joints_at(span%at, positions, threads, joints)
+    do i = 1, size(span%at)
       if (.not. allocated(joints%outcome(i)%error)) cycle
       found%error = joints%outcome(i)%error
-      found%error_crank = positions%states(i)%crank
+      found%error_crank = span%at(i)
       return
     end do
     i = findloc(any(joints%lock%friction > 0, dim=1), .true., dim=1)
     if (i > 0) then
       call set_error(found%error, error_of_numerics, "friction locks the linkage")
-      found%error_crank = positions%states(i)%crank
+      found%error_crank = span%at(i)
       return
     end if
     found%joints = joints%joints
@@ -133,53 +286,95 @@ contains
   end subroutine find_cycle
 
   !> All drives and joints at a speed.
-  subroutine size_speed(forces, positions, joints, number, found)
+  subroutine size_speed(forces, span, positions, joints, number, found)
     type(cycle_forces_t), intent(in) :: forces
+    type(cycle_t), intent(in) :: span
     type(positions_t), intent(in) :: positions
     type(joints_result_t), intent(in) :: joints
     integer, intent(in) :: number !! of the speed
     type(sizing_t), intent(inout) :: found
 
-    real(wp), allocatable :: values(:, :)
-    real(wp) :: drives(3, size(forces%linkage%drives))
+    real(wp), allocatable :: values(:, :), rates(:, :)
     integer :: i, s, n, d
 
     d = size(forces%linkage%drives) + forces%motors()
     n = d + size(joints%joints)
-    allocate (found%sized(n), values(size(positions%states), n))
+    allocate (found%sized(n), values(size(span%at), n), rates(size(span%at), d))
     do i = 1, size(values, 1)
-      values(i, :) = forces%values_of(joints, i, number)
+      call forces%find_values(joints, i, span%at(i), number, values(i, :), rates(i, :))
     end do
-    drives = drives_at_speed(forces%linkage, joints, 1, 0.0_wp, forces%request%speed(number), &
-      forces%request%acceleration)
     do s = 1, n
       associate (sized => found%sized(s))
         if (s <= size(forces%linkage%drives)) then
           sized%drive = s
-          sized%rate = drives(2, s)
         else if (s <= d) then
           sized%drive = 1
           sized%is_motor = .true.
-          sized%rate = forces%request%gear%ratio*drives(2, 1)
         else
           sized%joint = s - d
         end if
+        if (s <= d) call size_motion(forces, span, number, s, values(:, s), rates(:, s), sized)
         if (maxval(abs(values(:, s))) <= round_off_share*maxval(abs(values(:, &
           merge(1, d + 1, s <= d):merge(d, n, s <= d))))) cycle
-        sized%mean = sum(values(:, s))/size(values, 1)
-        sized%rms = sqrt(sum(values(:, s)**2)/size(values, 1))
-        sized%cubic = (sum(abs(values(:, s))**3)/size(values, 1))**(1.0_wp/3.0_wp)
+        sized%mean = mean_of(span, values(:, s))
+        sized%rms = sqrt(mean_of(span, values(:, s)**2))
+        sized%cubic = mean_of(span, abs(values(:, s))**3)**(1.0_wp/3.0_wp)
         if (s > d) then
           if (any(joints%is_open(s - d, :))) cycle
         end if
-        call find_peak(forces, number, s, positions%period, values(:, s), sized)
+        call find_peak(forces, span, of_forces, number, s, values(:, s), sized%peak, sized%crank)
         if (abs(sized%mean) <= round_off_share*abs(sized%peak)) sized%mean = 0.0_wp
+        sized%has_kinks = is_timed(forces%request)
         if (s <= d) cycle
-        sized%has_kinks = any(values(:, s) < abs(cshift(values(:, s), 1) - values(:, s)))
-        call find_turned_mean(forces%linkage, positions, joints%joints(s - d), values(:, s), sized)
+        call find_angle(forces, span, number, is_constant(values(:, s)), sized)
+        sized%has_kinks = sized%has_kinks .or. any(values(:, s) < abs(cshift(values(:, s), 1) - &
+          values(:, s)))
+        call find_turned_mean(forces, span, positions, joints%joints(s - d), values(:, s), sized)
       end associate
     end do
   end subroutine size_speed
+
+  !> The rate of a drive or of the motor, and its power; at constant speed the former is all.
+  subroutine size_motion(forces, span, number, signal, values, rates, sized)
+    type(cycle_forces_t), intent(in) :: forces
+    type(cycle_t), intent(in) :: span
+    integer, intent(in) :: number, signal !! of the speed; of the drive or motor
+    real(wp), intent(in) :: values(:), rates(:) !! (samples)
+    type(sized_t), intent(inout) :: sized
+
+    real(wp) :: power(size(values))
+
+    sized%rate = rates(1)
+    if (.not. is_timed(forces%request)) return
+    power = values*rates
+    associate (timed => sized%timed)
+      call find_peak(forces, span, of_rates, number, signal, rates, sized%rate, timed%rate_at)
+      timed%rms_rate = sqrt(mean_of(span, rates**2))
+      timed%mean_power = mean_of(span, power)
+      call find_peak(forces, span, of_powers, number, signal, power, timed%peak_power, &
+        timed%power_at)
+      if (abs(timed%mean_power) <= round_off_share*abs(timed%peak_power)) timed%mean_power = 0.0_wp
+    end associate
+  end subroutine size_motion
+
+  !> The mean over the cycle, of linear pieces between samples.
+  pure function mean_of(span, values) result(mean)
+    type(cycle_t), intent(in) :: span
+    real(wp), intent(in) :: values(:) !! (samples)
+    real(wp) :: mean
+
+    associate (weight => 0.5_wp*(span%width + cshift(span%width, -1)))
+      mean = sum(weight*values)/sum(weight)
+    end associate
+  end function mean_of
+
+  !> Whether a force has no peak to look for.
+  pure function is_constant(values) result(is)
+    real(wp), intent(in) :: values(:) !! (samples)
+    logical :: is
+
+    is = maxval(abs(values)) - minval(abs(values)) <= 1.0e-12_wp*maxval(abs(values))
+  end function is_constant
 
   !> The cubic mean of the force in a joint over the way that it turns or slides,
   !! `(∫ F³ |v| dt/∫ |v| dt)^(1/3)`: with it as a constant load a rolling bearing has the same life
@@ -188,41 +383,48 @@ contains
   !! Where the rate v changes its sign between two samples it is taken as linear, and the error
   !! falls with the third power of their distance. Else sums over the period are as exact as
   !! those of the other means.
-  subroutine find_turned_mean(linkage, positions, joint, values, sized)
-    type(linkage_t), intent(in) :: linkage
+  subroutine find_turned_mean(forces, span, positions, joint, values, sized)
+    type(cycle_forces_t), intent(in) :: forces
+    type(cycle_t), intent(in) :: span
     type(positions_t), intent(in) :: positions
     type(joint_t), intent(in) :: joint
     real(wp), intent(in) :: values(:)     !! (samples) magnitudes [N]
     type(sized_t), intent(inout) :: sized !! with its peak
 
-    real(wp) :: rate(size(values)), cube(size(values)), sums(2), share
+    real(wp), dimension(size(values)) :: rate, cube, pace, weight
+    real(wp) :: sums(2), share, motion(3)
     integer :: i, k, n
 
     n = size(values)
+    pace = 1.0_wp
     do i = 1, n
+      motion = forces%motion_at(span%at(i), 1)
+      if (is_timed(forces%request)) pace(i) = motion(2)
       associate (state => positions%states(i))
-        rate(i) = joint_rate(linkage, state%pose, state%coefficients, joint%pin, joint%body, &
-          joint%slider)
+        rate(i) = pace(i)*joint_rate(forces%linkage, state%pose, state%coefficients, joint%pin, &
+          joint%body, joint%slider)
       end associate
     end do
-    sized%turns = maxval(abs(rate)) > rest*linkage_rate(linkage, positions)
+    sized%turns = maxval(abs(rate)) > rest*linkage_rate(forces%linkage, positions, pace)
     if (.not. sized%turns) return
     cube = (values/abs(sized%peak))**3
-    sums = [sum(abs(rate)*cube), sum(abs(rate))]
+    weight = 0.5_wp*(span%width + cshift(span%width, -1))
+    sums = [sum(weight*abs(rate)*cube), sum(weight*abs(rate))]
     do i = 1, n
       k = modulo(i, n) + 1
       if (rate(i)*rate(k) >= 0.0_wp) cycle
       ! |v| is less between them than the chord from |v_i| to |v_k|, by this share of their sum.
-      share = abs(rate(i)*rate(k))/(abs(rate(i)) + abs(rate(k)))
+      share = span%width(i)*abs(rate(i)*rate(k))/(abs(rate(i)) + abs(rate(k)))
       sums = sums - share*[0.5_wp*(cube(i) + cube(k)), 1.0_wp]
     end do
     sized%turned_cubic = abs(sized%peak)*(sums(1)/sums(2))**(1.0_wp/3.0_wp)
   end subroutine find_turned_mean
 
   !> The greatest rate at which any body turns, or a pin moves per length of the first body.
-  pure function linkage_rate(linkage, positions) result(rate)
+  pure function linkage_rate(linkage, positions, pace) result(rate)
     type(linkage_t), intent(in) :: linkage
     type(positions_t), intent(in) :: positions
+    real(wp), intent(in) :: pace(:) !! (samples) with which rates are multiplied
     real(wp) :: rate
 
     integer :: i
@@ -230,56 +432,57 @@ contains
     rate = 0.0_wp
     do i = 1, size(positions%states)
       associate (coefficients => positions%states(i)%coefficients)
-        rate = max(rate, maxval(abs(coefficients%turn)), maxval(abs(coefficients%pin))/ &
-          linkage%bodies(1)%length)
+        rate = max(rate, abs(pace(i))*maxval(abs(coefficients%turn)), &
+          abs(pace(i))*maxval(abs(coefficients%pin))/linkage%bodies(1)%length)
       end associate
     end do
   end function linkage_rate
 
-  !> The greatest absolute value, between the highest samples, and of a joint its angle there.
-  subroutine find_peak(forces, number, signal, period, values, sized)
+  !> The greatest absolute value: between the highest samples, or of samples alone.
+  subroutine find_peak(forces, span, kind, number, signal, values, peak, place)
     type(cycle_forces_t), intent(in) :: forces
+    type(cycle_t), intent(in) :: span
+    integer, intent(in) :: kind           !! one of the of_… constants
     integer, intent(in) :: number, signal !! of the speed; of the force
-    real(wp), intent(in) :: period        !! [deg]
     real(wp), intent(in) :: values(:)     !! (samples)
-    type(sized_t), intent(inout) :: sized
+    real(wp), intent(out) :: peak         !! with its sign
+    real(wp), intent(out) :: place        !! where it is
 
     integer, parameter :: most_peaks = 3
-    real(wp) :: height(size(values)), step, crank, value
+    real(wp) :: height(size(values)), step, there, value
     integer :: at, k
-    logical :: is_constant
 
-    step = period/size(values)
+    step = span%period/size(values)
     height = abs(values)
     at = maxloc(height, dim=1)
-    sized%peak = values(at)
-    sized%crank = step*(at - 1)
+    peak = values(at)
+    place = span%at(at)
+    if (is_constant(values) .or. .not. span%repeats) return
     height = merge(height, 0.0_wp, height >= cshift(height, 1) .and. height >= cshift(height, -1))
-    ! A force that is constant has no peak to look for.
-    is_constant = maxval(abs(values)) - minval(abs(values)) <= 1.0e-12_wp*abs(sized%peak)
-    if (is_constant) height = 0.0_wp
     do k = 1, most_peaks
       at = maxloc(height, dim=1)
       if (height(at) <= 0.0_wp) exit
       height(at) = 0.0_wp
-      call enclose_peak(forces, number, signal, step*[at - 2, at], crank, value)
-      if (abs(value) <= abs(sized%peak)) cycle
-      sized%peak = value
-      sized%crank = modulo(crank, period)
+      call enclose_peak(forces, span, kind, number, signal, span%from + step*[at - 2, at], &
+        there, value)
+      if (abs(value) <= abs(peak)) cycle
+      peak = value
+      place = span%from + modulo(there - span%from, span%period)
     end do
-    if (sized%joint > 0) call find_angle(forces, number, period, is_constant, sized)
   end subroutine find_peak
 
   !> Golden-section search for the greatest absolute value between two positions.
-  subroutine enclose_peak(forces, number, signal, ends, crank, value)
+  subroutine enclose_peak(forces, span, kind, number, signal, ends, place, value)
     type(cycle_forces_t), intent(in) :: forces
+    type(cycle_t), intent(in) :: span
+    integer, intent(in) :: kind           !! one of the of_… constants
     integer, intent(in) :: number, signal !! of the speed; of the force
-    real(wp), intent(in) :: ends(2)       !! [deg]
-    real(wp), intent(out) :: crank        !! where it is [deg]
-    real(wp), intent(out) :: value        !! with its sign [N m] or [N]
+    real(wp), intent(in) :: ends(2)       !! [deg], of laws [s]
+    real(wp), intent(out) :: place        !! where it is, likewise
+    real(wp), intent(out) :: value        !! with its sign [N m], [N] or [W]
 
     real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1.0_wp)
-    ! A peak is flat: this close to it [deg] the value is exact to the last digits.
+    ! A peak is flat: this close to it the value is exact to the last digits.
     real(wp), parameter :: near = 1.0e-6_wp
     real(wp) :: a, b, x(2), y(2)
     integer :: at
@@ -287,30 +490,31 @@ contains
     a = ends(1)
     b = ends(2)
     x = [b - golden*(b - a), a + golden*(b - a)]
-    y = [forces%value_at(x(1), signal, number), forces%value_at(x(2), signal, number)]
-    do while (b - a > near)
+    y = [forces%value_at(x(1), kind, signal, number), forces%value_at(x(2), kind, signal, &
+      number)]
+    do while (b - a > near*span%unit)
       if (abs(y(1)) >= abs(y(2))) then
         b = x(2)
         x = [b - golden*(b - a), x(1)]
-        y = [forces%value_at(x(1), signal, number), y(1)]
+        y = [forces%value_at(x(1), kind, signal, number), y(1)]
       else
         a = x(1)
         x = [x(2), a + golden*(b - a)]
-        y = [y(2), forces%value_at(x(2), signal, number)]
+        y = [y(2), forces%value_at(x(2), kind, signal, number)]
       end if
     end do
     at = merge(1, 2, abs(y(1)) >= abs(y(2)))
-    crank = x(at)
+    place = x(at)
     value = y(at)
   end subroutine enclose_peak
 
   !> Direction of the force of a joint at its peak. Its error is what it changes by nearby; any
   !! position may be that of the peak of a constant force.
-  subroutine find_angle(forces, number, period, is_constant, sized)
+  subroutine find_angle(forces, span, number, stays, sized)
     type(cycle_forces_t), intent(in) :: forces
+    type(cycle_t), intent(in) :: span
     integer, intent(in) :: number         !! of the speed
-    real(wp), intent(in) :: period        !! [deg]
-    logical, intent(in) :: is_constant    !! the magnitude of the force
+    logical, intent(in) :: stays          !! the magnitude of the force is constant
     type(sized_t), intent(inout) :: sized !! with the peak
 
     integer, parameter :: constant_angles = 8
@@ -318,22 +522,25 @@ contains
     integer :: k
 
     sized%angle = forces%angle_at(sized%crank, sized%joint, number)
-    if (is_constant) then
+    if (.not. span%repeats) then
+      sized%angle_error = 0.0_wp
+    else if (stays) then
       sized%angle_error = 0.0_wp
       do k = 1, constant_angles
-        angle = forces%angle_at(period*k/constant_angles, sized%joint, number)
+        angle = forces%angle_at(span%from + span%period*k/constant_angles, sized%joint, number)
         sized%angle_error = max(sized%angle_error, between_angles(angle, sized%angle))
       end do
     else
-      angle = forces%angle_at(sized%crank + flatness, sized%joint, number)
+      angle = forces%angle_at(sized%crank + flatness*span%unit, sized%joint, number)
       sized%angle_error = between_angles(angle, sized%angle)
     end if
     sized%angle_error = sized%angle_error + round_off_share*180.0_wp
   end subroutine find_angle
 
   !> Flywheels for all speeds; loads that depend on the speed are those at the mean speed.
-  subroutine find_flywheels(forces, positions, threads, found)
+  subroutine find_flywheels(forces, span, positions, threads, found)
     type(cycle_forces_t), intent(in) :: forces
+    type(cycle_t), intent(in) :: span
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: threads
     type(sizing_result_t), intent(inout) :: found
@@ -342,7 +549,7 @@ contains
     real(wp), allocatable :: load(:), speeds(:, :), accelerations(:, :)
     integer :: k
 
-    call forces%find_rates(size(positions%states), speeds, accelerations)
+    call forces%find_rates(span%at, speeds, accelerations)
     call find_lagrange_terms(forces%linkage, forces%elements, positions, threads, lagrange, &
       speeds, accelerations, forces%division)
     associate (request => forces%request)

@@ -5,7 +5,7 @@ module sizing_values
   implicit none (type, external)
   private
 
-  public :: sized_t, sizing_t, largest_change, between_angles, settled
+  public :: sized_t, sizing_t, timed_t, largest_change, between_angles, settled
 
   !> Samples of a cycle are doubled until no result changes by more than this share of its peak.
   real(wp), parameter :: settled = 1.0e-11_wp*fineness
@@ -17,6 +17,17 @@ module sizing_values
   !! with it, greatest and least speed.
   integer, parameter :: flywheel_values = 7
 
+  !> What varies with laws, and at constant speed does not.
+  type :: timed_t
+    real(wp) :: rate_at = 0.0_wp    !! where the rate is greatest [s]
+    real(wp) :: rms_rate = 0.0_wp   !! [rad/s] or [m/s]
+    real(wp) :: peak_power = 0.0_wp !! greatest absolute value, with its sign [W]
+    real(wp) :: power_at = 0.0_wp   !! where it is [s]
+    real(wp) :: mean_power = 0.0_wp !! [W]
+    real(wp) :: error(2) = 0.0_wp   !! of rates and powers, estimated, as shares of the greatest [-]
+    real(wp) :: change(2) = 1.0_wp  !! of these from half as many samples [-]
+  end type timed_t
+
   !> A force over the cycle: of a drive its torque or force, with its sign, of the motor likewise,
   !! at its shaft; of a joint its magnitude.
   type :: sized_t
@@ -24,9 +35,11 @@ module sizing_values
     integer :: joint = 0        !! number; 0: of a drive
     logical :: is_motor = .false. !! of the motor of the first drive
     real(wp) :: peak = 0.0_wp   !! greatest absolute value, with its sign [N m] or [N]
-    real(wp) :: crank = 0.0_wp  !! position of the first drive there [deg]
+    real(wp) :: crank = 0.0_wp  !! position of the first drive there [deg], of laws the time [s]
     real(wp) :: angle = 0.0_wp  !! of a joint: of the force there, in the axes of its link [deg]
-    real(wp) :: rate = 0.0_wp   !! of a drive or the motor [rad/s] or [m/s]
+    real(wp) :: rate = 0.0_wp   !! of a drive or the motor, of laws the greatest absolute value with
+                                !! its sign [rad/s] or [m/s]
+    type(timed_t) :: timed      !! of a drive or the motor with laws
     real(wp) :: rms = 0.0_wp    !! [N m] or [N]
     real(wp) :: mean = 0.0_wp   !! [N m] or [N]
     real(wp) :: cubic = 0.0_wp  !! cubic mean of absolute values [N m] or [N]
@@ -72,12 +85,25 @@ contains
           a%turned_error = error_of(.false., a%change(2), b%change(2), b%turned_error)
           a%angle_error = max(a%angle_error, between_angles(a%angle, b%angle))
           change = max(change, a%change(1))
+          call compare_timed(a%rate, b%rate, b%timed, a%timed)
         end associate
       end do
       if (.not. now(k)%has_flywheel) cycle
       call compare_flywheels(now(k), last(k), change)
     end do
   end function largest_change
+
+  !> Errors of what varies with laws, which have kinks.
+  pure subroutine compare_timed(rate, last_rate, last, now)
+    real(wp), intent(in) :: rate, last_rate !! greatest
+    type(timed_t), intent(in) :: last
+    type(timed_t), intent(inout) :: now
+
+    now%change = [max(abs(abs(rate) - abs(last_rate)), abs(now%rms_rate - last%rms_rate))/ &
+      max(abs(rate), tiny(1.0_wp)), max(abs(abs(now%peak_power) - abs(last%peak_power)), &
+      abs(now%mean_power - last%mean_power))/max(abs(now%peak_power), tiny(1.0_wp))]
+    now%error = error_of(.true., now%change, last%change, last%error)
+  end subroutine compare_timed
 
   !> The error of a mean from its change by twice as many samples. Means of a smooth force converge
   !! exponentially. With kinks, where friction changes its sense or a force passes zero, errors fall
