@@ -492,7 +492,7 @@ contains
       case ("linkage", "equilibrium")
         reason = of_first//"expected them on DRIVE cards with 'ratio=' or 'at=', and CRANK"
       case ("geometry")
-        reason = of_first//"REPORT pins has all places at the instants of TIME"
+        if (report%times_word%line == 0) reason = "with 'crank=' "//of_first//"expected 'time='"
       case ("lagrange")
         reason = of_first//"REPORT drives has the torque of every drive"
       case ("balance")

@@ -6,8 +6,9 @@
 
 !> REPORT card: requests one or several tables.
 module report_cards
-  use card_reader, only: check_words, has_key, has_value, read_choice, read_entry_accuracy, &
-    read_entry_count, read_entry_quantity, read_quantity, require_positive, value_of
+  use card_reader, only: check_words, has_key, has_value, key_of, read_choice, &
+    read_entry_accuracy, read_entry_count, read_entry_quantity, read_quantity, require_positive, &
+    value_of
   use card_table, only: keys_in
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
@@ -71,6 +72,7 @@ module report_cards
     real(wp) :: fluctuation = 0.0_wp !! of REPORT sizing; 0: no flywheel is asked for [-]
     type(token_t) :: about_pin       !! value of `about=pin`; without a line if it is not given
     type(token_t) :: ratio_to        !! of coordinates and summary; likewise
+    type(token_t) :: times_word      !! of geometry: `crank` has instants [s]; likewise
     integer :: reference = 0         !! number of that coordinate; 0: no ratios are asked for
     type(summary_card_t) :: summary  !! REPORT summary
     type(token_t), allocatable :: columns(:) !! `columns=` of all but motion: what its first table
@@ -113,6 +115,7 @@ contains
     report%time_step_word = token_t("", 0, 0)
     report%about_pin = token_t("", 0, 0)
     report%ratio_to = token_t("", 0, 0)
+    report%times_word = token_t("", 0, 0)
     report%format_word = token_t("", 0, 0)
     report%through_word = token_t("", 0, 0)
     report%forces_word = token_t("", 0, 0)
@@ -276,7 +279,7 @@ contains
     if (fine) report%points = points
   end subroutine read_shapes
 
-  !> Reads `REPORT geometry crank=a,b,...`.
+  !> Reads `REPORT geometry crank=a,b,...` or `time=a,b,...`.
   pure subroutine read_geometry(card, known_keys, by_length, system, diagnostics, report)
     type(card_t), intent(in) :: card
     logical, intent(in) :: known_keys !! no key is unknown: a missing one is an error
@@ -285,6 +288,13 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(report_t), intent(inout) :: report
 
+    if (has_key(card, "time")) then
+      if (has_key(card, "crank")) call add_error(diagnostics, key_of(card, "crank"), &
+        "'crank=' has no meaning beside 'time='")
+      if (has_value(card, "time")) report%times_word = value_of(card, "time")
+      call read_entry_list(card, "time", dimension_time, system, diagnostics, report%crank)
+      return
+    end if
     if (known_keys .and. .not. has_key(card, "crank")) then
       call add_error(diagnostics, card%keyword, &
         "'crank=' is missing; expected the angles at which the linkage is to be drawn")

@@ -5,7 +5,8 @@ module report_needs
   use link_cards, only: has_own_mass, link_t
   use models, only: bears_lumped_masses, bends_links, inertia_lumped, inertia_none, is_moving, &
     model_t, needs_beams, needs_frequencies, needs_inertia, needs_masses, needs_response, &
-    report_number, report_of_masses
+    report_number, report_of_masses, &
+    runs_in_time
   use text, only: joined, word_list
   implicit none (type, external)
   private
@@ -34,6 +35,12 @@ contains
     if (i > 0 .and. any(model%drives(2:)%is_free)) call add_error(diagnostics, &
       model%reports(i)%keyword, "rests of a linkage with more than one free drive "// &
       "are not found yet")
+    i = report_number(model, "geometry")
+    if (i > 0 .and. .not. runs_in_time(model)) then
+      if (model%reports(i)%times_word%line > 0) call add_error(diagnostics, &
+        model%reports(i)%times_word, "a position is one of the first drive here, which moves "// &
+        "all: expected 'crank='; 'time=' is for several drives with laws")
+    end if
     i = report_number(model, "friction")
     if (i > 0 .and. size(model%frictions) == 0) call add_error(diagnostics, &
       model%reports(i)%keyword, "this report is about joints that rub, and there is no "// &

@@ -7,8 +7,9 @@ module geometry_report
   use mechanisms, only: pins_of_body
   use motion_pins_report, only: add_early_end, time_in_table
   use points_report, only: point_names
+  use models, only: model_t, runs_in_time
   use report_kinds, only: report_kind_t
-  use report_types, only: add_table, report_record_t, table_plan_t, whole_table_t
+  use report_types, only: add_table, fit_columns, report_record_t, table_plan_t, whole_table_t
   use spring_cards, only: spring_card_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
@@ -27,6 +28,7 @@ module geometry_report
   type, extends(whole_table_t) :: geometry_table_t
   contains
     procedure, nopass :: find_notes => geometry_notes
+    procedure, nopass :: fit => fit_geometry
     procedure, nopass :: plan => plan_geometry
     procedure, nopass :: add_all => add_geometry
   end type geometry_table_t
@@ -46,7 +48,8 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="geometry", help="where pins, links and points are, for "// &
-      "drawings", pattern="REPORT geometry crank=a,b,...", offered=.false., studies="geometry")
+      "drawings", pattern="REPORT geometry crank=a,b,... [time=a,b,...]", offered=.false., &
+      studies="geometry")
     call add_table(report, geometry_table_t(), "geometry", "crank:deg link,part,place:name x,"// &
       "y:length")
     call add_table(report, motion_places_table_t(), "motion_places", "time:time link,part,"// &
@@ -144,6 +147,15 @@ contains
       end do
     end associate
   end subroutine add_geometry
+
+  !> Of several drives with laws the linkage is where it is at instants.
+  pure subroutine fit_geometry(model, columns)
+    type(model_t), intent(in) :: model         !! with its drives
+    character(len=*), intent(inout) :: columns !! of the record
+
+    if (runs_in_time(model)) columns = "time:time link,part,place:name x,y:length"
+    call fit_columns(model, columns)
+  end subroutine fit_geometry
 
   !> Appends the rows of all instants, and a failed row if the motion ends before its end time.
   subroutine add_motion_places(variant, layout, rows)

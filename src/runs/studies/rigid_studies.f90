@@ -276,8 +276,14 @@ contains
     associate (geometry => variant%found%geometry)
       if (.not. allocated(geometry%outcome)) return
       do i = 1, size(geometry%crank)
-        if (allocated(geometry%outcome(i)%error)) call note_failure(variant, "position", &
-          geometry%outcome(i)%error, findings, crank=geometry%crank(i))
+        if (.not. allocated(geometry%outcome(i)%error)) cycle
+        if (runs_in_time(variant%model)) then
+          call note_failure(variant, "position", geometry%outcome(i)%error, findings, &
+            time=geometry%crank(i))
+        else
+          call note_failure(variant, "position", geometry%outcome(i)%error, findings, &
+            crank=geometry%crank(i))
+        end if
       end do
     end associate
   end subroutine add_geometry_failures
