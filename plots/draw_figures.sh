@@ -420,15 +420,15 @@ cycle_table() {
 plan_drive_locus() {
     drives=drives.dat
     [ -f $drives ] || [ $linkage = four_bar ] || drives=drive.dat
-    have sizing.dat && [ -z "$over" ] && have $drives && add drive_locus drive_locus sizing.dat '' $drives
+    have sizing.dat && have $drives && add drive_locus drive_locus sizing.dat '' $drives
 }
 
 # A linkage that is no four-bar. A structure has one position: nothing is drawn over it.
 plan_cycle() {
     needed=crank
     if [ -n "$cycle" ] && have "$cycle" && several "$cycle" && can_place; then
-        add linkage_positions linkage_positions "$cycle"
-        [ "${format:-png}" = png ] && can_animate && add linkage animate_cycle "$cycle"
+        add linkage_positions linkage_positions "$in_time$cycle"
+        [ "${format:-png}" = png ] && can_animate && add linkage animate_cycle "$in_time$cycle"
     fi
     needed=
     # Places of a slider have no directions, and by a law a force comes to one of them more than once.
@@ -531,7 +531,7 @@ plan_animations() {
     plan_table
     needed=crank
     if [ $linkage != four_bar ]; then
-        if [ -n "$cycle" ] && have "$cycle" && several "$cycle" && can_place; then add linkage animate_cycle "$cycle"; fi
+        if [ -n "$cycle" ] && have "$cycle" && several "$cycle" && can_place; then add linkage animate_cycle "$in_time$cycle"; fi
         return
     fi
     points=
@@ -562,8 +562,15 @@ for table in *.dat; do
     fi
 done
 if [ -n "$over" ]; then
-    law=$(sed -n "s/^DRIVE .* law=\([^ ]*\).*/\1/p" echo.deck 2> /dev/null | awk "$quoting"'NR == 1 { print quoted($0) }')
+    law=$(sed -n "s/^DRIVE .* law=\([^ ]*\).*/\1/p" echo.deck 2> /dev/null | awk '!told[$0]++' | paste -s -d, - | sed 's/,/, /g' |
+        awk "$quoting"'NR == 1 && $0 != "" { print quoted($0) }')
     settings="$settings; law_name = ${law:-\"\"}"
+fi
+# Where several drives have laws, the linkage is where it is at instants.
+in_time=
+if [ -n "$over" ] && [ "$(grep -ci '^DRIVE .* law=' echo.deck 2> /dev/null)" -gt 1 ]; then
+    in_time=$over
+    settings="$settings; laws_in_time = 1"
 fi
 
 # Where the linkage is, of several ranges; a cycle of more than a turn.

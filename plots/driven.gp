@@ -3,7 +3,8 @@
 # Sets is_angle, at_drive(position), cycle, and turning, whether the positions go over it as a whole.
 
 is_angle = unit_crank eq "deg"
-at_drive(position) = drive_subject.sprintf(" at %s%s", minus(sprintf("%.4g", position)), is_angle ? "°" : " ".unit_crank)
+drive_at = exists("laws_in_time") ? "at" : drive_subject." at"
+at_drive(position) = drive_at.sprintf(" %s%s", minus(sprintf("%.4g", position)), is_angle ? "°" : " ".unit_crank)
 positions = words(answer(table, "distinct crank"))
 if (!exists("cycle")) { cycle = 360 }
 goes_round = is_angle && positions > 2 && (high_crank - low_crank)*positions/(positions - 1.0) >= cycle - 1e-6

@@ -23,7 +23,7 @@ do for [k=1:others] {
         pale_positions = pale_positions.(pale_positions eq "" ? "" : ", ").minus(sprintf("%.5g", pose_crank[other(k)]))
     }
 }
-note = pale_positions eq "" ? "" : sprintf("pale: %s at %s%s", drive_subject, pale_positions, is_angle ? "°" : " ".unit_crank)
+note = pale_positions eq "" ? "" : sprintf("pale: %s %s%s", drive_at, pale_positions, is_angle ? "°" : " ".unit_crank)
 load plots."legend.gp"
 do for [k=1:drawn_links] { eval entry_line(short_name(link_names, k), sprintf("lw 11 dt solid lc rgb '%s'", link_ink[k])) }
 do for [k=1:paths] {

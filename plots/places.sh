@@ -36,8 +36,11 @@ bodies() { awk -v folder="$folder" "$@" -f "$PLOTS/quoted.awk" -f "$PLOTS/spring
 geometry=$folder/drawn/geometry.dat
 case $kind in
     range)
-        place "$(awk -v low="$1" -v high="$2" -v count="$3" 'BEGIN {
-            printf "REPORT geometry crank="
+        # Of several drives with laws positions are instants.
+        positions=crank
+        [ "$(grep -ci '^DRIVE .* law=' echo.deck)" -lt 2 ] || positions=time
+        place "$(awk -v low="$1" -v high="$2" -v count="$3" -v positions=$positions 'BEGIN {
+            printf "REPORT geometry %s=", positions
             for (k = 0; k <= count; k++) printf "%s%.15g", (k ? "," : ""), low + (high - low)*k/count
         }')"
         bodies -v share="$4" < "$geometry" ;;

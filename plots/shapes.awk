@@ -14,7 +14,7 @@
 BEGIN { pi = atan2(0, -1); wanted = 1 }
 
 # A position that the linkage cannot take has its number, and nothing to be drawn.
-/^# *failed crank=/ { sub(/^# *failed crank=/, ""); crank[++poses] = $1; next }
+/^# *failed (crank|time)=/ { sub(/^# *failed (crank|time)=/, ""); crank[++poses] = $1; next }
 
 /^#/ || NF == 0 { next }
 

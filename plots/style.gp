@@ -131,7 +131,7 @@ ordinal(n) = n <= 10 ? word("first second third fourth fifth sixth seventh eight
 capital(text) = substr("ABCDEFGHIJKLMNOPQRSTUVWXYZ", strstrt("abcdefghijklmnopqrstuvwxyz", text[1:1]), \
     strstrt("abcdefghijklmnopqrstuvwxyz", text[1:1])).text[2:*]
 at_crank(crank) = of_cycle ? drive_subject.sprintf(" at %.10g", crank).(unit_crank eq "deg" ? "°" : " ".unit_crank) : sprintf("θ₂ = %.10g°", crank)
-at_speed(speed, unit) = stands ? "at rest" : by_law ? (law_name eq "" ? "by its law" : "by law ".law_name) : of_cycle ? drive_subject.sprintf(" at %.6g %s", speed, typeset(unit)) : sprintf("ω₂ = %.6g %s", speed, typeset(unit))
+at_speed(speed, unit) = stands ? "at rest" : by_law ? (law_name eq "" ? "by its law" : "by law".(strstrt(law_name, ",") ? "s " : " ").law_name) : of_cycle ? drive_subject.sprintf(" at %.6g %s", speed, typeset(unit)) : sprintf("ω₂ = %.6g %s", speed, typeset(unit))
 at_place(crank, speed, unit) = stands ? "at rest" : of_cycle && !by_law ? at_crank(crank).sprintf(" and %.6g %s", speed, typeset(unit)) \
     : (of_cycle ? "" : "at ").at_crank(crank).", ".at_speed(speed, unit)
 
