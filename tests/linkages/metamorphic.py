@@ -306,12 +306,14 @@ class Tables:
             self.put(name, (round(self.place_of_crank(row["crank"]), 3) % 360,), found)
 
     def take_harmonics(self, name, table):
+        words = re.search(r"forces in (\S+), moments and torques in ([^\s,]+)", " ".join(table.notes))
+        force, moment = (self.factor(unit) or 1.0 for unit in words.groups())
         for row in table.rows:
             # Components turn, and counterweights of four-bars are others than those of what has pins more.
             if row["quantity"] not in ("shaking_x", "shaking_y") and row["linkage"] == "given":
                 found = {}
                 for column in KINDS[name]:
-                    found[column] = ("s", abs(row[column]), row["quantity"])
+                    found[column] = ("s", abs(row[column]) * (force if row["quantity"] == "shaking_force" else moment), row["quantity"])
                 self.put(name, (round(self.view.mirror * row["speed"], 6), row["linkage"], row["quantity"]), found)
 
     def take_sizing(self, name, table):

@@ -7,13 +7,14 @@ import tempfile
 
 
 class Table:
-    """Rows as dictionaries; text columns stay texts, failed rows are in `failed`."""
+    """Rows as dictionaries; text columns stay texts, failed rows are in `failed`, comments in `notes`."""
 
     def __init__(self, path):
         self.rows, head = [], []
         with open(path, encoding="utf-8") as file:
             lines = [line.rstrip("\n") for line in file]
         self.failed = [line for line in lines if line.startswith("# failed")]
+        self.notes = [line[1:].strip() for line in lines if line.startswith("#")]
         for line in lines:  # the head; later variants have notes of their own
             if line.startswith("# failed"):
                 continue
