@@ -245,6 +245,33 @@ class Machine:
         if r.random() < 0.5 and "follower" in self.links:
             self.add("COIL", "coil", "O4", "follower", r.uniform(0.5, 5), r.uniform(-0.5, 0.5))
 
+    def add_stops(self, turns):
+        """Stops of measures, with limits near the drawing; and springs of one side in place of some others."""
+        r, size = self.random, self.size
+        for number in range(r.choice((0, 1, 1, 2))):
+            pin, name, way = r.choice(self.moving()), f"measure{number}", turned(1.0, 0.0, r.uniform(0, 360))
+            x, y = self.places[pin]
+            travel = x * way[0] + y * way[1]
+            kind = r.choice(("distance", "travel", "sum", "angle") if turns else ("distance", "travel", "sum"))
+            if kind == "angle":
+                self.add("STOP", name, ("angle",), math.radians(self.keys["start"] + r.uniform(-90, 90)), r.random() < 0.5,
+                         10**r.uniform(-1, 1), r.choice((0.0, 10**r.uniform(-3, -1))), 10**r.uniform(-3, -1))
+                continue
+            limit = travel
+            form = ("travel", pin, *way)
+            if kind != "travel":
+                h = f"K{number}"
+                self.ground(h, *turned(0.5 * size, 0.0, r.uniform(0, 360)))
+                limit, form = math.dist((x, y), self.places[h]), ("distance", pin, h)
+                if kind == "sum":
+                    limit, form = 1.5 * limit - 0.5 * travel, ("sum", pin, h, *way)
+            self.add("STOP", name, form, limit + r.uniform(-0.1, 0.1) * size, r.random() < 0.5, 10**r.uniform(1, 3),
+                     r.choice((0.0, 10**r.uniform(-1, 1))), size * 10**r.uniform(-3, -1))
+        for k, load in enumerate(self.loads):
+            if load[0] == "SPRING" and r.random() < 0.5:
+                side = (r.choice(("push", "pull")), r.choice((0.0, 0.05 * size)), r.choice((0.0, 2.0)), size * 10**r.uniform(-3, -1))
+                self.loads[k] = load + (side,)
+
     def turn_of_cranks(self, count):
         start = round(self.random.uniform(0, 360 / count), 3)
         self.keys["cranks"] = [start + 360.0 / count * k for k in range(count)]
@@ -328,6 +355,8 @@ class Machine:
             self.add("TABLED", r.choice(self.moving()), r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(1, 5))
         if r.random() < 0.5:
             self.add_springs(r.random() < 0.5)
+        if self.family == "rigid":
+            self.add_stops(False)
         if r.random() < 0.5:
             for pin in self.places:
                 on = [name for name, link in self.links.items() if pin in link["pins"]]
@@ -352,11 +381,16 @@ class Machine:
         self.keys["drives"] = True
         if r.random() < 0.3:
             self.keys["reports"] += ["balance"]
+            # A damped contact begins within a few of the samples of harmonics, which then differ by some 1e-9.
+            self.loads = [load[:6] + (0.0,) + load[7:] if load[0] == "STOP" else
+                          load[:6] + ((*load[6][:2], 0.0, load[6][3]),) if load[0] == "SPRING" and len(load) > 6 else load
+                          for load in self.loads]
         if r.random() < 0.3 and not self.keys["alpha"]:
             self.keys["reports"] += ["sizing"]
         if rubs:
             self.keys["reports"] += ["friction"]
-        elif r.random() < 0.4:
+        elif r.random() < 0.4 and any(load[0] != "STOP" for load in self.loads if load[0] not in ("PINMASS", "MASS")):
+            # With nothing but stops it rests anywhere between them.
             self.keys["reports"] += ["equilibrium"]
 
     def motion(self):
@@ -366,6 +400,7 @@ class Machine:
         self.add("MOTOR", r.uniform(-1, 1))
         self.keys["reports"] = ["motion end=0.2 step=0.05"]
         self.keys["start"] = round(r.uniform(0, 360), 2)
+        self.add_stops(True)
         self.keys["start_speed"] = self.keys["speeds"][0]
         del self.keys["cranks"]
 
@@ -583,8 +618,14 @@ class View:
         if kind == "PINLOAD":
             return [f"LOAD {n(name)} damping={self.number(rest[0], 0, 1, -1)} resisting={self.number(rest[1], 1, 1, -2)}"]
         if kind == "SPRING":
-            return [f"SPRING {n(name)} {n(rest[0])} {n(rest[1])} stiffness={self.number(rest[2], 0, 1, -2)} "
-                    f"free_length={self.number(rest[3], 1)}"]
+            card = f"SPRING {n(name)} {n(rest[0])} {n(rest[1])} stiffness={self.number(rest[2], 0, 1, -2)} " \
+                f"free_length={self.number(rest[3], 1)}"
+            if len(rest) > 4:
+                side, gap, damping, width = rest[4]
+                card += f" only={side} gap={self.number(gap, 1)} damping={self.number(damping, 0, 1, -1)} contact={self.number(width, 1)}"
+            return [card]
+        if kind == "STOP":
+            return self.stop_cards(name, *rest)
         if kind == "DAMPER":
             return [f"DAMPER {n(name)} {n(rest[0])} {n(rest[1])} damping={self.number(rest[2], 0, 1, -1)}"]
         if kind == "COIL":
@@ -598,6 +639,25 @@ class View:
         if kind == "MOTOR":
             return [f"MOTOR torque={self.pseudo(name)}"]
         raise ValueError(kind)
+
+    def stop_cards(self, name, form, limit, is_below, stiffness, damping, width):
+        """With its measure; mirrored, an angle has its limit on the other side."""
+        n, (kind, *words) = self.name, form
+        if kind == "angle":
+            below = " below" if is_below == (self.mirror > 0) else ""
+            return [f"MEASURE {name} angle {n('crank')}",
+                    f"STOP stop{name} {name} limit={self.direction(math.degrees(limit))} stiffness={self.number(stiffness, 2, 1, -2)} "
+                    f"damping={self.number(damping, 2, 1, -1)} contact={math.degrees(width)!r}{below}"]
+        cards = []
+        if kind != "distance":
+            x, y = turned(words[-2], self.mirror * words[-1], self.turn)
+            cards.append(f"MEASURE {name if kind == 'travel' else 'way' + name} travel {n(words[0])} {x!r} {y!r}")
+        if kind != "travel":
+            cards.append(f"MEASURE {name if kind == 'distance' else 'far' + name} distance {n(words[0])} {n(words[1])}")
+        if kind == "sum":
+            cards.append(f"MEASURE {name} sum 1.5 far{name} -0.5 way{name}")
+        return cards + [f"STOP stop{name} {name} limit={self.number(limit, 1)} stiffness={self.number(stiffness, 0, 1, -2)} "
+                        f"damping={self.number(damping, 0, 1, -1)} contact={self.number(width, 1)}" + (" below" if is_below else "")]
 
     def _first_share(self, name):
         share = self.halves[name]

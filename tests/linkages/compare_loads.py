@@ -3,6 +3,7 @@ import math
 
 from compare import COMPARED, Differences, Place, Wrong, index, long_tables, row_of
 from fields import Digits
+from measures import Angle, Line, Sum, coordinate, names
 from solver import exact_state, positions
 
 POWER = 1e-12                   # of the sum of absolute terms
@@ -27,6 +28,7 @@ def with_solver(deck, tables):
             place.bearings(index(tables["bearings"], "pin", "link"))
             place.frame(index(tables["frame"]))
             place.lagrange(index(tables["lagrange"]))
+            place.coordinates(index(tables["coordinates"], "coordinate"))
             place.virtual_work()
             if number % 6 == 0:
                 place.energies()
@@ -99,7 +101,7 @@ class LoadedPlace(Place):
         for torque in model.torques.values():
             whole[2] += torque
         for load in model.applied:
-            if load.keyword in ("spring", "damper"):
+            if load.keyword in ("spring", "damper", "stop"):
                 continue                                  # between links and ground: within what is asked for
             for effect in load.effects(s):
                 if len(effect) == 2:
@@ -113,6 +115,34 @@ class LoadedPlace(Place):
                 unit = self.units["moment" if k == 2 else "force"]
                 scale = max(moment, force * float(max(abs(value) for value in about))) if k == 2 else force
                 self.add("force", row[f"{name}_{axis}"], sums[k] / unit, scale / float(unit), f"{name}_{axis}")
+
+    def coordinates(self, rows):
+        """Values and rates of what has a name, and what acts along it."""
+        model, s, units = self.model, self.state, self.units
+        moves = [model.pin_motion(s, pin)[1] for pin in model.moving_pins]
+        speed = max([abs(v) for pair in moves for v in pair] + [abs(s.v[body.angle]) * Digits.number(model.size)
+                                                                for body in model.bodies.values() if body.name])
+        force, moment = self.scales()
+        drives = {row[1]["name"]: (row[1], value) for row, value in zip((row for row in model.rows if row[0] == "drive"), s.drives)}
+        for name in names(self.deck):
+            along, row = coordinate(model, name), row_of(rows, self.key + (name,), "coordinates.dat")
+            size, kinds = Digits.number(1 if along.is_angle else model.size), ("angle", "speed", "torque") if along.is_angle else \
+                ("length", "rate", "force")
+            weight = sum(abs(term[0]) for term in along.terms) if isinstance(along, Sum) else 1
+            difference = Digits.number(row["value"]) * units[kinds[0]] - along.value(s)
+            if isinstance(along, Angle):
+                difference = along.half_turn(difference)
+            self.add("position", float(difference), 0, size * weight, f"value of {name}")
+            self.add("velocity", row["rate"] * float(units[kinds[1]]), along.rate(s), speed / Digits.number(model.size) * size * weight,
+                     f"rate of {name}")
+            effort = sum((load.effort(s) for load in model.applied if load.keyword in ("spring", "damper") and load.words[0] == name
+                          or load.keyword == "stop" and load.words[1] == name), model.zero)
+            drive, value = drives.get(name.split(":")[0], (None, None))
+            if drive and drive["linear"] and (drive["words"][0].lower() == "length" or isinstance(along, Line)
+                                              and along.guide is model.guides.get(drive["words"][0])):
+                effort += value
+            self.add("force", row["effort"], effort / units[kinds[2]], (moment if along.is_angle else force) / float(units[kinds[2]]),
+                     f"effort of {name}")
 
     def terms(self, s):
         """Powers of all loads, weights and inertia, with the solver's motion: (of inertia, of weights, of loads)."""

@@ -23,6 +23,7 @@ class Deck:
         self.drives, self.branches = [], []
         self.masses, self.pin_masses, self.forces, self.torques = [], [], {}, {}
         self.applied, self.tables, self.frictions = [], {}, []  # all other loads: (keyword, words, keys)
+        self.measures = {}                                     # words of MEASURE cards by their names
         self.gravity = (Decimal(0), Decimal(0))
         self.materials, self.sections = {}, {}                 # density, area
         self.moduli, self.bending, self.effects = {}, {}, set()  # (E, nu), (second moment, shear coefficient), words of EFFECTS
@@ -145,6 +146,12 @@ class Deck:
 
     def _damper(self, bare, keys):
         self.applied.append(("damper", bare, keys))
+
+    def _stop(self, bare, keys):
+        self.applied.append(("stop", bare, keys))
+
+    def _measure(self, bare, _):
+        self.measures[bare[0]] = bare[1:]
 
     def _friction(self, bare, keys):
         self.frictions.append((bare, keys))

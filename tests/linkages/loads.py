@@ -1,10 +1,11 @@
 """Loads beside weights, constant forces on pins and constant torques, for the independent solver: FORCE and TORQUE cards with keys,
-LOAD, SPRING, DAMPER and their tables.
+LOAD, SPRING, DAMPER, STOP and their tables.
 
 Every load is an object with effects(s): what it puts on the linkage in a state, a list of (where, fx, fy) and (body, torque), and
-potential(s).  A spring is told by its length or angle x and the gradient of x; a table by the slopes of its spline at the knots.
+potential(s).  A spring and a stop are told by a coordinate (measures.py); a table by the slopes of its spline at the knots.
 """
 import dense
+from measures import Angle, Places, coordinate, of_spring
 
 
 def tanh(field, x):
@@ -78,56 +79,50 @@ class Curve:
                 + h * t * (1 - t) * ((1 - t) * self.d[i] - t * self.d[i + 1]))
 
 
-class Load:
+class Monotone(Curve):
+    """Steffen's cubics of 1990, which have their extremes at knots only: the slope there is that of the parabola through three points, but
+    at most twice that of either chord, and 0 where chords rise and fall; at the ends it is that of the parabola, within the same."""
+
+    def __init__(self, x, y):
+        self.x, self.y, self.period = x, y, None
+        chord = [(y[k + 1] - y[k]) / (x[k + 1] - x[k]) for k in range(len(x) - 1)]
+        self.d = [chord[0], chord[-1]]
+        if len(x) > 2:
+            parabola = [(y[k + 1] - y[k]) / (x[k + 1] - x[k]) + (y[k] - y[k - 1]) / (x[k] - x[k - 1])
+                        - (y[k + 1] - y[k - 1]) / (x[k + 1] - x[k - 1]) for k in range(1, len(x) - 1)]
+            inner = [self.within(p, one, other) for p, one, other in zip(parabola, chord, chord[1:])]
+            self.d = [self.within(2 * chord[0] - parabola[0], chord[0])] + inner + [self.within(2 * chord[-1] - parabola[-1], chord[-1])]
+
+    @staticmethod
+    def within(slope, *chords):
+        """Between 0 and twice the flattest chord."""
+        if min(chords) <= 0 <= max(chords):
+            return 0 * slope
+        most = 2 * min(chords, key=abs)
+        return max(min(slope, most), 0 * slope) if most > 0 else min(max(slope, most), 0 * slope)
+
+
+class Load(Places):
     """What all loads have: a name for messages, the model, and the places of points."""
 
     potential_of = None
 
     def __init__(self, model, keyword, words, keys):
-        self.model, self.keyword, self.words, self.keys = model, keyword, words, keys
-        self.zero = model.zero
+        super().__init__(model)
+        self.keyword, self.words, self.keys = keyword, words, keys
 
     def value(self, key, quantity, default="0"):
         return self.model.field.number(self.model.deck.units.value(self.keys.get(key, default), quantity))
 
-    def place(self, name):
-        """("pin", name), or (body, along, offset) of a POINT that is no pin."""
-        if name in self.model.deck.points and name not in self.model.pins_by_name:
-            link, along, offset = self.model.deck.points[name]
-            return self.model.bodies[link], self.model.field.number(along), self.model.field.number(offset)
-        return "pin", name
-
-    def where(self, s, place):
-        """(x, y) and (vx, vy) of a place."""
-        if place[0] == "pin":
-            return self.model.pin_motion(s, place[1])[:2]
-        return self.model.point_motion(s, *place)[0][:2]
-
-    def angle(self, s, link):
-        """In (-pi, pi], as tables have it, and its rate."""
-        angle, rate, _ = self.model.link_motion(s, link)
-        return self.half_turn(angle + self.turn(link)), rate
-
-    def turn(self, link):
-        """Of a four-bar the angle of the coupler is that from A to B, whatever its card says."""
-        model = self.model
-        if not model.is_four_bar():
-            return model.zero
-        a, b, _ = model.four_bar_pins()
-        return model.field.pi if model.bodies[link].pins[:2] == [b, a] else model.zero
-
-    def half_turn(self, angle):
-        pi = self.model.field.pi
-        turns = int(angle / (2 * pi))
-        angle -= 2 * pi * turns
-        if angle > pi:
-            angle -= 2 * pi
-        elif angle <= -pi:
-            angle += 2 * pi
-        return angle
-
     def potential(self, s):
         return self.zero
+
+    def has_potential(self):
+        return False
+
+    def lost(self, s):
+        """What of the effects is no change of the potential."""
+        return [] if self.has_potential() else self.effects(s)
 
     def is_fine(self, s):
         """Whether the program computes it there."""
@@ -166,8 +161,13 @@ class Process(Load):
             self.over, angular = ("slider", slider), False
         elif name == self.words[0] and not self.on_link:
             self.over, angular = ("travel", None), False
-        else:
+        elif name in model.bodies:
             self.over, angular = ("angle", name), True
+        elif name == "time":
+            self.over, angular = ("time", None), False
+        else:
+            self.over = ("coordinate", coordinate(model, name))
+            angular = self.over[1].is_angle
         (unit_x, x), (unit_y, y) = deck.table(keys["table"])
         period = None
         if angular:
@@ -176,13 +176,17 @@ class Process(Load):
                 period = 2 * field.pi * round(float(turns))
         x = [field.number(deck.units.value(f"{value}{unit_x}", "number")) for value in x]
         y = [field.number(deck.units.value(f"{value}{unit_y}", "number")) for value in y]
-        self.curve = Curve(field, x, y, period)
+        self.curve = Monotone(x, y) if name == "time" else Curve(field, x, y, period)
 
     def coordinate(self, s):
         """Of the table."""
         model, (kind, what) = self.model, self.over
         if kind == "drive":
             return s.first
+        if kind == "time":
+            return s.time
+        if kind == "coordinate":
+            return what.value(s)
         if kind == "angle":
             return self.angle(s, what)[0]
         if kind == "travel":
@@ -199,9 +203,13 @@ class Process(Load):
         return (x - x0) * cosine + (y - y0) * sine
 
     def is_fine(self, s):
+        if self.over and self.over[0] == "coordinate" and not self.over[1].is_angle and not self.over[1].is_fine(s):
+            return False
         if self.curve is None or self.curve.period is not None:
             return True
         first, last = self.curve.ends()
+        if self.over[0] == "time":
+            return first <= s.time <= last
         return first < self.coordinate(s) < last
 
     def _numbers(self):
@@ -265,18 +273,88 @@ class Process(Load):
         return bool(self.sign) or (self.keyword == "load" and ("damping" in self.keys or "resisting" in self.keys))
 
 
-class Spring(Load):
-    """SPRING and DAMPER cards: a pull with x, the length of a line or an angle between links."""
+class Contact:
+    """What pushes a depth back with a stiffness, a damping and a width within which it begins."""
+
+    def __init__(self, stiffness, damping, width):
+        self.stiffness, self.damping, self.width = stiffness, damping, width
+
+    def ramp(self, depth):
+        """By how much it is pressed: 0, width (x^3 - x^4/2) with x = depth/width, or depth - width/2."""
+        if depth <= 0:
+            return 0 * depth
+        if depth > self.width:
+            return depth - self.width / 2
+        return depth**3 * (2 * self.width - depth) / (2 * self.width**3)
+
+    def push(self, depth, rate=0):
+        """The effort against the depth."""
+        if depth <= 0:
+            return 0 * depth
+        part = min(depth / self.width, 1) if self.width else 1
+        return self.stiffness * self.ramp(depth + self.damping / self.stiffness * rate * part**2 * (3 - 2 * part))
+
+    def energy(self, depth):
+        """The integral of the effort without damping: of a contact within the width, and of a straight line from there on."""
+        if depth <= 0:
+            return 0 * depth
+        inner = min(depth, self.width)
+        part = inner / self.width if self.width else 0 * depth
+        begun = self.width**2 * part**4 * (5 - 2 * part) / 20
+        return self.stiffness * (begun + (depth - inner) * (depth + inner - self.width) / 2)
+
+
+class Along(Load):
+    """What acts along a coordinate: SPRING, DAMPER and STOP cards have one, and a value of it from which they count."""
+
+    def deflection(self, s):
+        """The coordinate less that value; an angle in (-pi, pi], but with all turns if a drive counts it."""
+        value = self.along.value(s) - self.rest
+        return self.half_turn(value) if isinstance(self.along, Angle) and not self.along.drive else value
+
+    def effects(self, s):
+        return self.along.effects(s, self.effort(s))
+
+    def default_width(self, stiffness, turns):
+        """A hundredth of the depth that the weight of all would press; of an angle at the length of the longest link."""
+        model = self.model
+        gx, gy = model.gravity
+        mass = sum((mass for body in model.bodies.values() for mass, *_ in body.particles), model.zero) \
+            + sum(model.loads.values(), model.zero)
+        length = max(model.field.sqrt(sum(x**2 for x in body.places[body.pins[1]])) for body in model.bodies.values() if body.name)
+        return mass * model.field.sqrt(gx**2 + gy**2) / 100 / stiffness * (length if turns else 1)
+
+    def read_contact(self, side, turns):
+        """By the keys; it acts on one side of the value."""
+        kind = "turning_" if turns else ""
+        stiffness = self.value("stiffness", kind + "stiffness")
+        width = self.value("contact", "angle" if turns else "length") if "contact" in self.keys else \
+            self.default_width(stiffness, turns)
+        self.side, self.contact = side, Contact(stiffness, self.value("damping", kind + "damping"), width)
+
+    def pushes(self, s, is_still=False):
+        """The effort of a contact along the coordinate."""
+        rate = self.zero if is_still else self.side * self.along.rate(s)
+        return -self.side * self.contact.push(self.side * self.deflection(s), rate)
+
+    def touches(self, s):
+        """Whether a contact does something."""
+        return self.side * self.deflection(s) > 0
+
+    def is_continuous(self, s):
+        """Whether the effort does not jump nearby."""
+        if isinstance(self.along, Angle):
+            return self.along.drive is not None or abs(self.deflection(s)) < 2.9
+        return self.along.is_fine(s)
+
+
+class Spring(Along):
+    """SPRING and DAMPER cards: a pull with x, the length of a line or an angle between links; or of one side only."""
 
     def __init__(self, model, keyword, words, keys):
         super().__init__(model, keyword, words, keys)
-        self.turns = words[-1] in model.bodies and words[-1] != words[1]
-        if self.turns:
-            self.links = words[2:]
-            self.on_crank = len(self.links) == 1 and self.links[0] == model.deck.drives[0]["name"] \
-                and not model.deck.drives[0]["words"]
-        else:
-            self.places = [self.place(name) for name in words[1:3]]
+        self.along = of_spring(model, words)
+        self.turns, self.contact = self.along.is_angle, None
         kind = "turning_" if self.turns else ""
         self.stiffness = self.value("stiffness", kind + "stiffness")
         self.damping = self.value("damping", kind + "damping")
@@ -288,6 +366,9 @@ class Spring(Load):
             self.rest, self.tension = self.value(rest, "angle" if self.turns else "length"), self.zero
         else:
             self.rest, self.tension = self._drawn() - self.tension / self.stiffness, self.zero
+        if "only" in keys:
+            self.read_contact(1 if keys["only"] == "pull" else -1, self.turns)
+            self.rest += self.side * self.value("gap", "angle" if self.turns else "length")
 
     def _drawn(self):
         model = self.model
@@ -295,76 +376,80 @@ class Spring(Load):
             (x0, y0), (x1, y1) = (model.drawn[name] for name in self.words[1:3])
             return model.field.sqrt((x1 - x0)**2 + (y1 - y0)**2)
         angles = []
-        for link in self.links:
+        for link in self.words[2:]:
             pins = model.bodies[link].pins
             start = next((k for k, pin in enumerate(pins) if pin in model.ground), 0)
             (x0, y0), (x1, y1) = model.drawn[pins[start]], model.drawn[pins[(start + 1) % len(pins)]]
             angles.append(model.field.arctan2(y1 - y0, x1 - x0) + self.turn(link))
-        if self.on_crank:
-            return self._among_positions(angles[0])
-        return angles[-1] - (angles[0] if len(angles) > 1 else 0)
+        drawn = angles[-1] - (angles[0] if len(angles) > 1 else 0)
+        return self._among_positions(drawn) if self.along.drive else drawn
 
     def _among_positions(self, angle):
-        """The drawn angle of a crank with the turns that bring it among the positions, at first, or nearest to them."""
-        field, deck = self.model.field, self.model.deck
-        places = [field.number(place) * field.pi / 180 for place in deck.cranks or [deck.start]]
+        """The drawn angle of a drive with the turns that bring it among its positions, at first, or nearest to them."""
+        field, model = self.model.field, self.model
+        places = [model.drive_value(self.along.drive, field.number(place * model.deck.crank_factor()))
+                  for place in model.deck.cranks or [model.deck.start]]
         turned = [angle + 2 * field.pi * turn for turn in range(-6, 7)]
         outside = [max(min(places) - place, place - max(places), self.zero) for place in turned]
         return turned[outside.index(min(outside))]
 
-    def stretch(self, s):
-        """x less its value without load, and the rate of x."""
-        if not self.turns:
-            (x0, y0), (vx0, vy0) = self.where(s, self.places[0])
-            (x1, y1), (vx1, vy1) = self.where(s, self.places[1])
-            square = (x1 - x0)**2 + (y1 - y0)**2
-            length = self.model.field.sqrt(square)
-            return length - self.rest, ((x1 - x0) * (vx1 - vx0) + (y1 - y0) * (vy1 - vy0)) / length
-        angle, rate = self.angle(s, self.links[-1])
-        if self.on_crank:
-            return s.first - self.rest, rate
-        if len(self.links) > 1:
-            first, first_rate = self.angle(s, self.links[0])
-            angle, rate = angle - first, rate - first_rate
-        return self.half_turn(angle - self.rest), rate
-
     def is_fine(self, s):
-        if not self.turns:
-            return self.rest >= 0 and self.stretch(s)[0] + self.rest > 0.02 * self.model.size
-        return self.stiffness == 0 or self.on_crank or abs(self.stretch(s)[0]) < 2.9
+        if not self.turns and not (self.rest >= 0 and self.along.is_fine(s)):
+            return False
+        return self.stiffness == 0 or self.is_continuous(s)
 
-    def pull(self, s):
-        stretch, rate = self.stretch(s)
-        return self.tension + self.stiffness * stretch + self.damping * rate
-
-    def effects(self, s):
-        pull = self.pull(s)
-        if self.turns:
-            bodies = [self.model.bodies[link] for link in self.links]
-            return [(bodies[-1], -pull)] + ([(bodies[0], pull)] if len(bodies) > 1 else [])
-        (x0, y0), _ = self.where(s, self.places[0])
-        (x1, y1), _ = self.where(s, self.places[1])
-        length = self.model.field.sqrt((x1 - x0)**2 + (y1 - y0)**2)
-        fx, fy = pull * (x1 - x0) / length, pull * (y1 - y0) / length
-        return [(self.places[0], fx, fy), (self.places[1], -fx, -fy)]
+    def effort(self, s):
+        if self.contact:
+            return self.pushes(s)
+        return -(self.tension + self.stiffness * self.deflection(s) + self.damping * self.along.rate(s))
 
     def potential(self, s):
         if self.keyword == "damper":
             return self.zero
-        stretch, _ = self.stretch(s)
-        return self.tension * stretch + self.stiffness * stretch**2 / 2
+        x = self.deflection(s)
+        return self.contact.energy(self.side * x) if self.contact else self.tension * x + self.stiffness * x**2 / 2
 
     def has_potential(self):
-        return self.keyword == "spring"
+        return self.keyword == "spring" and not (self.contact and self.damping > 0)
+
+    def lost(self, s):
+        if self.contact:
+            return self.along.effects(s, self.pushes(s) - self.pushes(s, is_still=True))
+        return super().lost(s)
 
     def is_moving(self):
         return self.keyword == "damper"
 
 
+class Stop(Along):
+    """STOP cards: what pushes a coordinate back."""
+
+    def __init__(self, model, keyword, words, keys):
+        super().__init__(model, keyword, words, keys)
+        self.along = coordinate(model, words[1])
+        self.rest = self.value("limit", "angle" if self.along.is_angle else "length")
+        self.read_contact(-1 if words[2:] else 1, self.along.is_angle)
+
+    def is_fine(self, s):
+        return self.is_continuous(s)
+
+    def effort(self, s):
+        return self.pushes(s)
+
+    def potential(self, s):
+        return self.contact.energy(self.side * self.deflection(s))
+
+    def has_potential(self):
+        return self.contact.damping == 0
+
+    def lost(self, s):
+        return self.along.effects(s, self.pushes(s) - self.pushes(s, is_still=True))
+
+
 def loads_of(model):
     """All loads of the cards that have keys."""
-    return [(Spring if keyword in ("spring", "damper") else Process)(model, keyword, words, keys)
-            for keyword, words, keys in model.deck.applied]
+    kinds = {"spring": Spring, "damper": Spring, "stop": Stop}
+    return [kinds.get(keyword, Process)(model, keyword, words, keys) for keyword, words, keys in model.deck.applied]
 
 
 class Rub(Load):

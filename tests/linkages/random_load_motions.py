@@ -4,8 +4,9 @@
 
 At every instant of motion.dat the kinetic and the potential energy are those of the independent solver at the places of
 motion_pins.dat, and the work is the integral of its powers of all loads without a potential and of the motor (Romberg's method over
-windows of equal steps, which tells its own error).  Both energies have to balance with it to 1e-9 of the energies, in every window in
-which the powers are smooth enough for that.  Motions are compared up to the first dead point, and are without FRICTION cards.
+windows of equal steps, which tells its own error).  Some loads have a table over the time, with rows where windows end.  Both energies
+have to balance with it to 1e-9 of the energies, in every window in which the powers are smooth enough for that.  Motions are compared
+up to the first dead point, and are without FRICTION cards.
 """
 import argparse
 import math
@@ -38,8 +39,26 @@ def deck(case, seed):
             motor = (motor[0], -motor[1])
         lines.append(f"MOTOR stall={motor[0]}N*m noload={motor[1]}rad/s")
     end = 0.25
+    for number in range(draw.choice((0, 1, 1, 2))):
+        lines += over_time(case, draw, f"course{number}", end)
     lines.append(f"REPORT motion crank={start} speed={speed} end={end} step={end / STEPS!r} pins=yes")
     return "\n".join(lines) + "\n", motor
+
+
+def over_time(case, draw, name, end):
+    """Cards of a load with a table over the time."""
+    times = [0] + sorted(draw.sample(range(1, STEPS // WINDOW), draw.randint(1, 6))) + [STEPS // WINDOW + draw.choice((0, 3))]
+    on_link = draw.random() < 0.5
+    unit, most = ("N*m", 5) if on_link else ("N", 30)
+    values = [draw.choice((0, draw.uniform(-most, most), draw.uniform(-most, most))) for _ in times]
+    table = f"TABLE {name} s {unit} " + " ".join(f"{k * end * WINDOW / STEPS!r} {value:.6g}" for k, value in zip(times, values))
+    if on_link:
+        return [table, f"TORQUE {draw.choice(case.free_links())} table={name} over=time"]
+    x, y = (f"{draw.uniform(-2, 2):.6g}" for _ in range(2))
+    pin = draw.choice(case.drawing.moving_pins())
+    if pin in case.drawing.points:
+        return [table, f"FORCE {draw.choice(case.free_links())} {x} {y} at={draw.uniform(-0.3, 1) * case.scale:.6g} table={name} over=time"]
+    return [table, f"FORCE {pin} {x} {y} table={name} over=time"]
 
 
 def run(program, path, folder):
@@ -87,7 +106,9 @@ def state_of(model, deck_, row, places):
     rate = row["rate1"] * length if linear else row["omega2" if "omega2" in row else "rate1"] * float(deck_.units.results["speed"])
     if model.condition(q) > 1e4:
         raise Failure("near a dead point")
-    return model.state(q, first, rate, 0.0)
+    s = model.state(q, first, rate, 0.0)
+    s.time = row["time"]
+    return s
 
 
 def compare(case, text, motor, tables, folder):
@@ -99,7 +120,7 @@ def compare(case, text, motor, tables, folder):
     by_time = {}
     for row in pins.rows:
         by_time.setdefault(row["time"], {})[row["pin"]] = (row["x"], row["y"])
-    kinetic, potential, power, scale, taken = [], [], [], [], []
+    kinetic, potential, power, scale, taken, touching = [], [], [], [], [], 0
     for row in motion.rows:
         try:
             s = state_of(model, deck_, row, by_time[row["time"]])
@@ -107,13 +128,13 @@ def compare(case, text, motor, tables, folder):
             break
         if not all(load.is_fine(s) for load in model.applied):
             break
+        touching += any(load.touches(s) for load in model.applied if getattr(load, "contact", None))
         t, u = model.energy(s)
         for pin, force in model.forces.items():
             u -= sum(f * x for f, x in zip(force, model.pin_motion(s, pin)[0]))
         terms = [torque * s.v[model.bodies[link].angle] for link, torque in model.torques.items()]
         for load in model.applied:
-            if not load.has_potential():
-                terms += model.power_of_effects(s, load.effects(s))
+            terms += model.power_of_effects(s, load.lost(s))
         if motor:
             terms.append(motor[0] * (1 - s.rate / motor[1]) * s.rate)
         kinetic.append(t)
@@ -122,7 +143,7 @@ def compare(case, text, motor, tables, folder):
         taken.append(abs(power[-1]))
         scale.append(abs(t) + abs(u) + sum(abs(load.potential(s)) for load in model.applied))
     if len(kinetic) <= WINDOW:
-        return 0.0, 0, 0
+        return 0.0, 0, 0, 0, 0
     step = motion.rows[1]["time"] - motion.rows[0]["time"]
     size = max(scale) + sum(taken) * step
     for row, t, u in zip(motion.rows, kinetic, potential):
@@ -146,7 +167,7 @@ def compare(case, text, motor, tables, folder):
             raise ValueError(f"energies change by other than the work of the loads: {balance:.1e}, in the table {told:.1e}, "
                              f"from {motion.rows[first]['time']} s")
         largest, windows = max(largest, balance, told), windows + 1
-    return largest, windows, rough
+    return largest, windows, rough, touching, len(kinetic)
 
 
 def main():
@@ -157,7 +178,7 @@ def main():
     parser.add_argument("--scratch", default=os.path.join(tempfile.gettempdir(), "flexmech_load_motions"))
     options = parser.parse_args()
     os.makedirs(options.scratch, exist_ok=True)
-    done = failures = windows = rough = 0
+    done = failures = windows = rough = touching = instants = 0
     largest = 0.0
     for seed in range(options.seed, options.seed + options.count):
         case = make(seed)
@@ -174,8 +195,9 @@ def main():
             continue
         os.remove(path)
         largest, windows, rough = max(largest, found[0]), windows + found[1], rough + found[2]
+        touching, instants = touching + found[3], instants + found[4]
     print(f"{done} motions, {failures} failed; {windows} windows of {WINDOW} steps, {rough} more too rough to integrate; "
-          f"largest error of the energies {largest:.1e}")
+          f"contacts act at {touching} of {instants} instants; largest error of the energies {largest:.1e}")
     print(f"{done - failures} passed, {failures} failed")
     return 1 if failures else 0
 

@@ -2,12 +2,13 @@
 
     rigid_tables.py SEED COUNT [--program PATH] [--scratch FOLDER] [--smooth]
 
-Four-bars, slider-cranks and six-bars with loads of many kinds and friction, over full turns.  Values with an error column (sizing,
-equilibrium) differ by the sum of both errors at most; all others (kinematics, pins, reactions, bearings, frame, drive, shaking,
-friction, holding, lagrange, balance, harmonics, coordinates, ratios) by 1e-10 of the largest of their kind.  Coordinates are
-compared with the pins and links of the same deck, too, their least and greatest values (linkage) with those of closed forms at many
-positions and between.  The last lines have, for every report, how many values there were, the largest difference, and of estimates the shares with a difference beyond 1, 0.1 and 0.01 of
-the estimate.  --smooth leaves out friction and loads against the motion: cases are five times faster, and all have an equilibrium.
+Four-bars, slider-cranks and six-bars with loads of many kinds, stops and friction, over full turns; mirrored, a stop above a limit of an
+angle is one below.  Values with an error column (sizing, equilibrium) differ by the sum of both errors at most; all others (kinematics,
+pins, reactions, bearings, frame, drive, shaking, friction, holding, lagrange, balance, harmonics, linkage, coordinates, ratios) by 1e-10
+of the largest of their kind.  Coordinates are compared with the pins and links of the same deck, too, their least and greatest values
+(linkage) with those of closed forms at many positions and between.  The last lines have, for every report, how many values there were,
+the largest difference, and of estimates the shares with a difference beyond 1, 0.1 and 0.01 of the estimate.  --smooth leaves out
+friction, damping and loads against the motion: cases are five times faster, and all have an equilibrium.
 """
 import argparse
 import math
@@ -61,6 +62,7 @@ class Linkage:
 
     def __init__(self, seed, smooth=False):
         draw = self.draw = random.Random(seed)
+        self.smooth = smooth
         self.kind = draw.choice(("four_bar", "slider_crank", "slider_crank", "six_bar"))
         while True:
             self.a, self.b, self.c, self.d = (draw.uniform(0.1, 1) for _ in range(4))
@@ -82,8 +84,79 @@ class Linkage:
         self.spring = (draw.uniform(20, 400), draw.uniform(0.1, 1), draw.uniform(-2, 2), draw.uniform(1.5, 3)) if draw.random() < 0.5 else None
         self.pin_mass = draw.uniform(0.1, 1) if draw.random() < 0.4 else None
         self.coefficients = [draw.uniform(0.01, 0.12) for _ in range(4)]
+        self.stops = self.draw_stops(draw)
+        self.one_sided = self.course = None
+        if draw.random() < 0.4:
+            self.one_sided = (draw.choice(("push", "pull")), draw.uniform(0, 0.1), draw.uniform(0, 20), draw.uniform(0.01, 0.3))
+        if draw.random() < 0.4:
+            self.course = (draw.choice(("far", "lift", "bend", "aside")), [draw.uniform(-10, 10) for _ in range(6)])
         if smooth:
+            self.stops = [stop[:4] + (0.0,) + stop[5:] for stop in self.stops]
             self.rubs, self.during, self.damping, self.resisting = False, None, None, None
+
+    def coordinates(self, crank):
+        """The measures of `measures`, in metres and radians, where the crank has an angle."""
+        turn = math.radians(crank)
+        a = self.a * math.cos(turn), self.a * math.sin(turn)
+        if self.kind == "slider_crank":
+            x, y = a[0] + math.sqrt(self.rod**2 - (a[1] - self.offset)**2), self.offset
+            lean = math.atan2(y - a[1], x - a[0])
+        else:
+            # B is to the left of the way from A to Q.
+            way = math.dist(a, (self.d, 0.0))
+            along = (way**2 + self.b**2 - self.c**2) / (2 * way)
+            left = math.sqrt(self.b**2 - along**2)
+            cosine, sine = (self.d - a[0]) / way, -a[1] / way
+            x, y = a[0] + along * cosine - left * sine, a[1] + along * sine + left * cosine
+            lean = math.atan2(y, x - self.d)
+            if self.kind == "six_bar":
+                x, y = x + math.sqrt((3.5 * self.c)**2 - (y - 1.5 * self.c)**2), 1.5 * self.c
+        values = {"far": math.hypot(x, y), "lift": WAY[0] * x + WAY[1] * y, "lean": lean,
+                  "bend": (lean - turn + math.pi) % (2 * math.pi) - math.pi,
+                  "ahead": x * math.cos(turn) + y * math.sin(turn), "aside": y * math.cos(turn) - x * math.sin(turn)}
+        return {**values, "total": 2 * values["far"] - 0.5 * values["lift"]}
+
+    def draw_stops(self, draw):
+        """(measure, limit, is below, stiffness, damping, width), SI, for the linkage that is neither rotated nor mirrored."""
+        stops, found = [], [self.coordinates(5 * k) for k in range(72)]
+        for _ in range(draw.choice((0, 1, 1, 2, 3))):
+            name = draw.choice(("far", "lift", "total", "ahead", "aside", "lean"))
+            low, high = (end(place[name] for place in found) for end in (min, max))
+            if high - low > (3.0 if name == "lean" else math.inf) or high - low < 1e-3:
+                continue
+            stiffness = 10**(draw.uniform(0, 2) if name == "lean" else draw.uniform(1, 3.5))
+            stops.append((name, low + draw.uniform(0.1, 0.9) * (high - low), draw.random() < 0.5, stiffness,
+                          draw.choice((0.0, stiffness * 10**draw.uniform(-4, -2))), (high - low) * 10**draw.uniform(-2, -0.3)))
+        return stops
+
+    def stop_cards(self, look):
+        """Mirrored, `aside` and `lean` have the other sign."""
+        for number, (name, limit, is_below, stiffness, damping, width) in enumerate(self.stops):
+            sign = look.sign if name in ("aside", "lean") else 1
+            below = " below" if is_below == (sign > 0) else ""
+            if name == "lean":
+                limit = f"{look.angle(math.degrees(limit))!r}deg"
+                keys = f"stiffness={stiffness!r}N*m/rad damping={damping!r}N*m*s/rad contact={width!r}rad"
+            else:
+                limit = look.length(sign * limit)
+                keys = f"stiffness={stiffness!r}N/m damping={damping!r}N*s/m contact={look.length(width)}"
+            yield f"STOP {look.name(f'stop{number}')} {look.name(name)} limit={limit} {keys}{below}"
+
+    def course_cards(self, look, out):
+        """A torque by a table over a measure."""
+        name, values = self.course
+        found = [self.coordinates(5 * k)[name] for k in range(72)]
+        low, high = min(found), max(found)
+        low, high = (-math.pi, math.pi) if name == "bend" else (low - 0.2 * (high - low), high + 0.2 * (high - low))
+        places = [low + k * (high - low) / 5 for k in range(6)]
+        sign = look.sign if name in ("aside", "bend") else 1
+        if name == "bend":
+            places, values = [math.degrees(place) for place in places], values[:5] + values[:1]
+        rows = sorted((sign * place, look.sign * value) for place, value in zip(places, values))
+        factor = 1000 if look.millimetres and name != "bend" else 1
+        unit = "deg" if name == "bend" else "mm" if look.millimetres else "m"
+        yield f"TABLE {look.name('course')} {unit} N*m " + " ".join(f"{place * factor!r} {value!r}" for place, value in rows)
+        yield f"TORQUE {look.name(out)} table={look.name('course')} over={look.name(name)}"
 
     def measures(self, look, out, last):
         """MEASURE cards, of lengths but for two."""
@@ -159,7 +232,13 @@ class Linkage:
             stiffness, free, x, y = self.spring
             pivot("S", x, y)
             cards.append(f"SPRING {name('coil')} {name('S')} {name(last)} stiffness={stiffness!r}N/m free_length={length(free)}")
+            if self.one_sided:
+                side, gap, damping, width = self.one_sided
+                cards[-1] += f" only={side} gap={length(gap)} damping={0.0 if self.smooth else damping!r}N*s/m contact={length(width)}"
         cards += self.measures(look, out, last)
+        cards += self.stop_cards(look)
+        if self.course and not self.torque:
+            cards += self.course_cards(look, out)
         if self.rubs:
             cards.append(f"FRICTION {name('O')} radius=0.02m coefficient={self.coefficients[0]!r} smooth=0.5rad/s")
             if self.kind != "four_bar":
@@ -334,8 +413,9 @@ def compare_with_pins(comparison, linkage, tables):
         if linkage.spring:
             stiffness, free, *end = linkage.spring
             expected[crank, "coil"] = distance_of([x[0] - end[0], x[1] - end[1]], v, a)
-            comparison.plain("coordinates by pins", f"{crank} coil effort", rows[crank, "coil"]["effort"],
-                             -stiffness*(expected[crank, "coil"][0] - free), stiffness)
+            if not linkage.one_sided:
+                comparison.plain("coordinates by pins", f"{crank} coil effort", rows[crank, "coil"]["effort"],
+                                 -stiffness*(expected[crank, "coil"][0] - free), stiffness)
     scales = [max(abs(values[k]) for values in expected.values()) for k in range(3)]
     for key, values in expected.items():
         for k, field in enumerate(fields):

@@ -770,8 +770,7 @@ class Model:
             _, (vx, vy), _ = self.pin_motion(s, pin)
             power += fx * vx + fy * vy
         for load in self.applied + (self.rubs if hasattr(s, "pressing") else []):
-            if not load.has_potential():
-                power += sum(self.power_of_effects(s, load.effects(s)), self.zero)
+            power += sum(self.power_of_effects(s, load.lost(s)), self.zero)
         return power + sum((torque * s.v[self.bodies[link].angle] for link, torque in self.torques.items()), self.zero)
 
     def power_of_drives(self, s):

@@ -620,7 +620,7 @@ class Structure:
     @staticmethod
     def _pull(load, state):
         """Tension or torque of a spring."""
-        return load.tension + load.stiffness * load.stretch(state)[0]
+        return load.tension + load.stiffness * load.deflection(state)
 
     @staticmethod
     def _end_loads(beam, load):
