@@ -132,17 +132,22 @@ contains
 
   end subroutine turn_round
 
-  !> Names the speeds of meetings that could not be looked into.
+  !> Names the speeds of meetings that could not be looked into, with half their width on both
+  !! sides: so far their edges by the slow motion are from those of the whole equation where growth
+  !! is large.
   subroutine add_gaps(meetings, searches, found)
     type(meeting_t), intent(in) :: meetings(:)
     type(search_t), intent(in) :: searches(:)
     type(intervals_t), intent(inout) :: found
 
+    real(wp) :: half
     integer :: i
 
     do i = 1, size(searches)
-      if (len_trim(searches(i)%fault) > 0) call add_gap(meetings(i)%from, meetings(i)%to, &
-        "two multipliers meet: "//trim(searches(i)%fault), found)
+      if (len_trim(searches(i)%fault) == 0) cycle
+      half = 0.5_wp*(meetings(i)%to - meetings(i)%from)
+      call add_gap(meetings(i)%from - half, meetings(i)%to + half, "two multipliers meet: "// &
+        trim(searches(i)%fault), found)
     end do
   end subroutine add_gaps
 
