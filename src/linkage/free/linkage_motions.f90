@@ -21,9 +21,9 @@ module linkage_motions
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkage_paths, only: has_change_points, period_of
   use linkage_rates, only: all_inertia_of, find_rates_of_coordinates, find_state, free_drives, &
-    inertia_share, least_inertia_of, moving_linkage_t, no_stop, place_by_drives, rate_of_drive, &
-    stop_at_end, stop_change_point, stop_energy, stop_many_steps, stop_misfit, stop_no_inertia, &
-    stop_steps
+    inertia_share, least_inertia_of, longest_step, moving_linkage_t, no_stop, place_by_drives, &
+    rate_of_drive, stop_at_end, stop_change_point, stop_energy, stop_many_steps, stop_misfit, &
+    stop_no_inertia, stop_steps
   use linkage_samples, only: find_details, linkage_details_t, linkage_sample_t, sample_state
   use linkages, only: drive_of_angle, linkage_t, reference_point
   use load_tables, only: next_row
@@ -313,7 +313,7 @@ contains
     real(wp), intent(in) :: time                    !! to be reached [s]
 
     type(error_t), allocatable :: error
-    real(wp) :: before(size(motion%state)), time_before, share, span
+    real(wp) :: before(size(motion%state)), time_before, limit, share, span
     integer(long) :: last_step
     integer :: tiny_steps
 
@@ -329,8 +329,9 @@ contains
       motion%system%stop = no_stop
       before = motion%state
       time_before = motion%time
-      call advance(motion%integrator, motion%system, motion%time, &
-        next_row(motion%system%whole%linkage, motion%time, time), motion%state, error)
+      limit = min(next_row(motion%system%whole%linkage, motion%time, time), motion%time + &
+        longest_step(motion%system, motion%state))
+      call advance(motion%integrator, motion%system, motion%time, limit, motion%state, error)
       if (allocated(error)) then
         motion%stop = merge(motion%system%stop, stop_steps, motion%system%stop /= no_stop)
         if (motion%stop == stop_at_end) motion%left = motion%system%left

@@ -11,7 +11,8 @@ module linkage_rates
   use adaptive_integration, only: rate_system_t
   use block_ends, only: refuse_leaving_block
   use constants, only: degree, two_pi
-  use coordinates, only: coordinate_rate
+  use coordinate_types, only: coordinate_t, is_distance, is_sum, twist_t
+  use coordinates, only: coordinate_rate, coordinate_value
   use dense_factor, only: dense_factor_t, factorize, solve
   use drives, only: drive_t, refuse_speed
   use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
@@ -32,11 +33,12 @@ module linkage_rates
   use poses, only: dead_point_sine, place_groups, place_links
   use pulls, only: deflection
   use rigid_bodies, only: rigid_body_t
+  use terminals, only: twists_of
   use whole_systems, only: drive_acceleration, drive_position, drive_row, rate_along, whole_system_t
   implicit none (type, external)
   private
 
-  public :: moving_linkage_t, find_instant, free_drives, find_state, &
+  public :: moving_linkage_t, longest_step, find_instant, free_drives, find_state, &
     place_by_drives, find_rates_of_coordinates, all_inertia_of, least_inertia_of, &
     inertia_share, rate_of_drive
   public :: no_stop, stop_change_point, stop_no_inertia, stop_too_fast, stop_steps, &
@@ -58,6 +60,10 @@ module linkage_rates
   !! too long, whatever its estimated error [rad]. `most_rate` is beyond any mechanics, but short of
   !! overflow.
   real(wp), parameter :: most_angle = 9.0_wp, most_rate = 1.0e100_wp
+
+  !> Within a turn of half a radian the cubic of a depth is right to the hundredth of its rise that
+  !! `advance` allows for [rad].
+  real(wp), parameter :: most_turn = 0.5_wp
 
   !> There are no rates where the scaled determinant of M is below this.
   real(wp), parameter :: least_inertia = 1.0e-13_wp
@@ -338,6 +344,62 @@ contains
     if (found) switches = switches_at(self%whole%linkage, pose, now, self%gear, &
       rate_of_drive(self, pose, now, 1))
   end function switches_of_motion
+
+  !> The longest step in which the course of contacts is seen: no body turns, and no line between
+  !! the ends of a distance, by more than `most_turn`; huge without contacts [s].
+  function longest_step(self, state) result(step)
+    class(moving_linkage_t), intent(in) :: self
+    real(wp), intent(in) :: state(:) !! coordinates, rates, work
+    real(wp) :: step
+
+    type(pose_t) :: pose
+    type(kinematic_coefficients_t), allocatable :: per(:)
+    type(kinematic_coefficients_t) :: now
+    real(wp) :: turn
+    logical :: found
+    integer :: i, k
+
+    step = huge(step)
+    associate (linkage => self%whole%linkage)
+      if (all(linkage%loads%side == 0)) return
+      call find_state(self, state, pose, per, now, found)
+      if (.not. found) return
+      turn = maxval(abs(now%turn))
+      do i = 1, size(linkage%loads)
+        associate (along => linkage%loads(i)%along)
+          if (linkage%loads(i)%side == 0) cycle
+          if (along%kind == is_sum) then
+            do k = 1, size(along%term)
+              turn = max(turn, line_turn(linkage, pose, now, linkage%coordinates(along%term(k))))
+            end do
+          else
+            turn = max(turn, line_turn(linkage, pose, now, along))
+          end if
+        end associate
+      end do
+    end associate
+    if (turn > 0.0_wp) step = most_turn/turn
+  end function longest_step
+
+  !> A bound of how fast the line between the ends of a distance turns; 0 of other coordinates
+  !! [rad/s].
+  pure function line_turn(linkage, pose, now, coordinate) result(turn)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: now
+    type(coordinate_t), intent(in) :: coordinate
+    real(wp) :: turn
+
+    ! Ends that meet make no step vanish.
+    real(wp), parameter :: least = 1.0e-3_wp
+    type(twist_t) :: twist(2)
+
+    turn = 0.0_wp
+    if (coordinate%kind /= is_distance) return
+    twist = twists_of(linkage, pose, now, coordinate%at)
+    turn = norm2(twist(2)%velocity - twist(1)%velocity)/max(coordinate_value(linkage, pose, &
+      coordinate), least*maxval(linkage%bodies%length))
+  end function line_turn
 
   !> How deep stops and springs of one side are pressed.
   function contacts_of_motion(self, state) result(contacts)
