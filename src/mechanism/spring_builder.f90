@@ -3,6 +3,7 @@ module spring_builder
   use applied_load_types, only: applied_load_t, applies_along
   use constants, only: degree
   use coordinate_types, only: coordinate_t, is_angle, terminal_t
+  use group_equations, only: drive_value
   use kinds, only: wp
   use link_shapes, only: find_drawn_place
   use linkages, only: body_t, drive_of_angle, linkage_t, turned
@@ -110,7 +111,7 @@ contains
         if (bodies(1) > 0) load%rest = load%rest - drawn_angle(model, pins, &
           linkage%bodies(bodies(1)))
       end associate
-      if (counts_turns(load)) load%rest = turn_of_deck(model, load%rest)
+      if (counts_turns(load)) load%rest = turn_of_deck(model, linkage, load%along%drive, load%rest)
       load%rest = load%rest - spring%load/spring%stiffness
     else
       do k = 1, 2
@@ -149,23 +150,25 @@ contains
     end do
   end function place_of
 
-  !> The drawn angle of a crank with the whole turns that bring it among the positions of the deck,
-  !! or next to them: a spring on the crank counts them [rad].
-  pure function turn_of_deck(model, angle) result(turned_angle)
+  !> The drawn angle that a drive gives with the whole turns that bring it among its positions in
+  !! the deck, or next to them: a spring on it counts them [rad].
+  pure function turn_of_deck(model, linkage, drive, angle) result(turned_angle)
     type(model_t), intent(in) :: model
+    type(linkage_t), intent(in) :: linkage
+    integer, intent(in) :: drive       !! its number
     real(wp), intent(in) :: angle      !! [rad]
     real(wp) :: turned_angle
 
     real(wp), allocatable :: positions(:)
     real(wp) :: drawn
-    integer :: motion
+    integer :: i, motion
 
     positions = model%crank%value
-    if (allocated(model%law_places)) positions = model%law_places
     motion = report_number(model, "motion")
     if (motion > 0 .and. size(positions) == 0) positions = [model%reports(motion)%start_angle]
     turned_angle = angle
     if (size(positions) == 0) return
+    positions = [(drive_value(linkage, drive, positions(i)), i=1, size(positions))]
     drawn = angle/degree
     associate (least => minval(positions), greatest => maxval(positions))
       ! The first turn from the least position on.
