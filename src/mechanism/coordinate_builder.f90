@@ -70,8 +70,9 @@ contains
     end do
     do i = 1, size(model%processes)
       associate (process => model%processes(i))
-        if (process%over == over_measure) linkage%loads(i)%variable = &
-          linkage%coordinates(process%number)
+        if (process%over /= over_measure) cycle
+        linkage%loads(i)%variable = linkage%coordinates(process%number)
+        linkage%loads(i)%variable_name = named(process%number)%name
       end associate
     end do
   end subroutine build_coordinates

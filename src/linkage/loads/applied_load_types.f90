@@ -51,6 +51,7 @@ module applied_load_types
     type(cubic_spline_t) :: table         !! of forces or couples [N] or [N m]
     character(len=:), allocatable :: table_name !! for messages
     character(len=:), allocatable :: angle_name !! of the link whose angle it is over, for messages
+    character(len=:), allocatable :: variable_name !! of the coordinate with a name, likewise
     real(wp) :: tension = 0.0_wp          !! [N] or [N m]
     real(wp) :: stiffness = 0.0_wp        !! [N/m] or [N m/rad]
     real(wp) :: rest = 0.0_wp             !! [m] or [rad]

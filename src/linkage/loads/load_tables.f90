@@ -4,7 +4,7 @@ module load_tables
   use applied_load_types, only: applied_load_t, applies_along, over_coordinate, over_nothing, &
     over_time
   use constants, only: degree
-  use coordinates, only: coordinate_value
+  use coordinates, only: coordinate_value, is_turning
   use cubic_splines, only: spline_values
   use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
@@ -57,6 +57,14 @@ contains
           x < first))
         if (load%over == over_time) words = words//": it is over the time, here "//to_string(x)// &
           " s"
+        if (allocated(load%variable_name)) then
+          words = words//": it is over '"//load%variable_name//"', here "
+          if (is_turning(linkage, load%variable)) then
+            words = words//to_string(x/degree)//" deg"
+          else
+            words = words//to_string(x)//" m"
+          end if
+        end if
         if (allocated(load%angle_name)) words = words//": it is over the angle of the link '"// &
           load%angle_name//"', here "//to_string(x/degree)//" deg; without 'over=' a table is "// &
           "over the first drive and its turns"

@@ -118,7 +118,7 @@ contains
         spring%load, has_load)
       if (has_load) spring%load_word = value_of(card, "force")
     end if
-    call read_side(card, turns, system, diagnostics, spring)
+    call read_side(card, turns, is_stiff, system, diagnostics, spring)
     if (spring%has_rest .and. has_load) call refuse_both(card, merge("free_angle ", &
       "free_length", turns), merge("torque", "force ", turns), diagnostics)
     if (is_stiff .and. .not. spring%stiffness > 0.0_wp .and. .not. has_load .and. &
@@ -130,9 +130,9 @@ contains
 
   !> Reads `[only=push|pull [gap=] [damping=] [contact=]]`. Errors: unreadable or negative values,
   !! the others without the first, a load in the drawing beside it, no stiffness.
-  pure subroutine read_side(card, turns, system, diagnostics, spring)
+  pure subroutine read_side(card, turns, is_stiff, system, diagnostics, spring)
     type(card_t), intent(in) :: card
-    logical, intent(in) :: turns
+    logical, intent(in) :: turns, is_stiff !! its stiffness was read
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
     type(spring_card_t), intent(inout) :: spring !! with all else
@@ -160,8 +160,7 @@ contains
     if (spring%load_word%line > 0) call add_error(diagnostics, key_of(card, &
       trim(merge("torque", "force ", turns))), "a spring of one side is unloaded in the "// &
       "drawing, or at '"//trim(merge("free_angle ", "free_length", turns))//"='")
-    if (has_value(card, "stiffness")) call require_positive(card, "stiffness", spring%stiffness, &
-      diagnostics)
+    if (is_stiff) call require_positive(card, "stiffness", spring%stiffness, diagnostics)
   end subroutine read_side
 
   !> Reads the value that every such card has.

@@ -172,7 +172,8 @@ contains
       do i = 1, size(model%processes)
         associate (process => model%processes(i), report => model%reports(k))
           if (process%over == over_time .and. (report%kind%name == "equilibrium" .or. &
-            report%kind%masses .and. report%kind%name /= "motion" .and. .not. has_law(model))) then
+            (report%kind%masses .or. report%kind%frequencies) .and. report%kind%name /= "motion" &
+            .and. .not. has_law(model))) then
             call add_error(diagnostics, process%over_word, "positions have no time: a table "// &
               "over the time needs REPORT motion, or tables of a drive with a law, over TIME", &
               report%keyword, "this report has positions")

@@ -47,8 +47,8 @@ contains
     end do
   end subroutine read_stops
 
-  !> Checks stops and springs of one side. Errors: an unknown coordinate; without gravity no
-  !! `contact=`; reports on links that bend.
+  !> Checks stops and springs of one side. Errors: an unknown coordinate, or a name of two; without
+  !! gravity no `contact=`; reports on links that bend.
   pure subroutine check_stops(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(in) :: model                !! with its stops, springs and reports
@@ -61,6 +61,7 @@ contains
       associate (stop => model%stops(i))
         if (stop%measure%line == 0) cycle
         call seek_coordinate(diagnostics, named, stop%measure, number)
+        if (number > 0) call refuse_two(diagnostics, named, stop%measure, number)
         call require_contact(diagnostics, model, stop%contact, stop%keyword)
         call refuse_reports(diagnostics, model, stop%keyword, "a STOP")
       end associate
@@ -73,6 +74,23 @@ contains
       end associate
     end do
   end subroutine check_stops
+
+  !> Refuses a name that two coordinates have.
+  pure subroutine refuse_two(diagnostics, named, word, first)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(named_coordinate_t), intent(in) :: named(:)
+    type(token_t), intent(in) :: word !! the name
+    integer, intent(in) :: first      !! number of the first that has it
+
+    integer :: i
+
+    do i = first + 1, size(named)
+      if (.not. same_word(named(i)%name, word%text)) cycle
+      call add_error(diagnostics, word, "'"//word%text//"' is the name of two coordinates; "// &
+        "give one another name", named(i)%word, "one is here")
+      return
+    end do
+  end subroutine refuse_two
 
   !> Reports a contact without a width that follows from nothing.
   pure subroutine require_contact(diagnostics, model, contact, word)
