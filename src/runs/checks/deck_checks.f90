@@ -30,6 +30,7 @@ module deck_checks
   use sorting, only: ascending_order
   use structures, only: elements_replaced, has_beams, has_mesh, structure_t
   use mode_requests, only: method_wanted
+  use stop_drawings, only: check_drawn_stops
   use text, only: plural, to_string
   use tokens, only: token_t
   use vibration_models, only: by_link_modes, chosen_method, is_long_link, most_link_unknowns
@@ -66,6 +67,7 @@ contains
       return
     end if
     mechanism = mechanism_of(model, assembly)
+    call check_drawn_stops(model, mechanism, diagnostics)
     call warn_of_change_points(model, mechanism, diagnostics)
     call check_format(model, mechanism, diagnostics)
     if (.not. (is_four_bar(model) .and. mechanism%is_four_bar)) then
