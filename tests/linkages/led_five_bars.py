@@ -1,45 +1,48 @@
 """Five-bars led along polygons by two tables of joint angles, against closed forms, Newton and Euler:
-`led_five_bars.py FIRST LAST [--program P]` (needs NumPy).
+`led_five_bars.py FIRST LAST [--program P]`.
 
 For every number a robot at random, its tables by inverse kinematics, and their periodic cubic splines once more here. Compared are places,
 velocities and accelerations of the pins, positions, rates and torques of both drives at all instants, and the ratings of the torques with
-those of a fine sampling.
+those of a fine sampling. Vectors of the plane are complex numbers.
 """
 import argparse
+import bisect
+import cmath
+import math
 import os
+import random
 import subprocess
 import sys
 import tempfile
 
-import numpy as np
+import dense
 
-ACROSS = np.array([[0.0, -1.0], [1.0, 0.0]])
 NEAR = 1e-9   # of the largest value of its kind
 RATED = 1e-3  # of the peak: the samples here lie elsewhere, between the kinks of the accelerations
 
 
-def unit(angle):
-    return np.array([np.cos(angle), np.sin(angle)])
+def cross(a, b):
+    return a.real*b.imag - a.imag*b.real
 
 
 class Periodic:
     """A periodic cubic spline by its second derivatives."""
 
     def __init__(self, x, y):
-        h, dy, n = np.diff(x), np.diff(y), len(x) - 1
-        matrix, right = np.zeros((n, n)), np.zeros(n)
+        n = len(x) - 1
+        h, dy = ([b - a for a, b in zip(values, values[1:])] for values in (x, y))
+        matrix, right = [[0.0]*n for _ in range(n)], [6*(dy[i]/h[i] - dy[i - 1]/h[i - 1]) for i in range(n)]
         for i in range(n):
-            matrix[i, i] += 2*(h[i - 1] + h[i])
-            matrix[i, (i - 1) % n] += h[i - 1]
-            matrix[i, (i + 1) % n] += h[i]
-            right[i] = 6*(dy[i]/h[i] - dy[i - 1]/h[i - 1])
-        bend = np.linalg.solve(matrix, right)
-        self.x, self.y, self.h, self.bend = x, y, h, np.append(bend, bend[0])
+            matrix[i][i] += 2*(h[i - 1] + h[i])
+            matrix[i][i - 1] += h[i - 1]
+            matrix[i][(i + 1) % n] += h[i]
+        bend = dense.solve(dense.factor(matrix), right)
+        self.x, self.y, self.h, self.bend = x, y, h, bend + bend[:1]
 
     def __call__(self, t):
         x, y, bend = self.x, self.y, self.bend
         t = x[0] + (t - x[0]) % (x[-1] - x[0])
-        i = min(max(int(np.searchsorted(x, t, side="right")) - 1, 0), len(x) - 2)
+        i = min(max(bisect.bisect_right(x, t) - 1, 0), len(x) - 2)
         h = self.h[i]
         a, b = (x[i + 1] - t)/h, (t - x[i])/h
         return (a*y[i] + b*y[i + 1] + ((a**3 - a)*bend[i] + (b**3 - b)*bend[i + 1])*h*h/6,
@@ -49,22 +52,21 @@ class Periodic:
 class Robot:
     """Bodies 0, 1 turn about the motors, 2, 3 meet in the tool; lengths in m, masses in kg."""
 
-    def __init__(self, random):
-        self.upper, self.fore = random.uniform(0.15, 0.25), random.uniform(0.25, 0.35)
-        self.motor = np.array([[0.0, 0.0], [random.uniform(0.08, 0.2), random.uniform(-0.02, 0.02)]])
-        self.mass, self.inertia = random.uniform(0.2, 1, 4), random.uniform(1e-3, 1e-2, 4)
-        self.centre = np.append(random.uniform(0.3, 0.6, 2)*self.upper, random.uniform(0.3, 0.6, 2)*self.fore)
-        self.tool, self.gravity = random.uniform(0, 1), np.array([0.0, -random.uniform(0, 9.81)])
-        middle = 0.5*self.motor.sum(axis=0) + [0, 0.75*np.hypot(self.upper, self.fore)]
-        self.corners = [middle + random.uniform(-0.05, 0.05, 2) for _ in range(4)]
+    def __init__(self, rng):
+        self.upper, self.fore = rng.uniform(0.15, 0.25), rng.uniform(0.25, 0.35)
+        self.motor = [0j, complex(rng.uniform(0.08, 0.2), rng.uniform(-0.02, 0.02))]
+        self.mass, self.inertia = [rng.uniform(0.2, 1) for _ in range(4)], [rng.uniform(1e-3, 1e-2) for _ in range(4)]
+        self.centre = [rng.uniform(0.3, 0.6)*length for length in (self.upper, self.upper, self.fore, self.fore)]
+        self.tool, self.gravity = rng.uniform(0, 1), complex(0, -rng.uniform(0, 9.81))
+        middle = 0.5*self.motor[1] + 0.75j*math.hypot(self.upper, self.fore)
+        self.corners = [middle + complex(rng.uniform(-0.05, 0.05), rng.uniform(-0.05, 0.05)) for _ in range(4)]
 
     def angles(self, place):
         """Joint angles with both elbows outside."""
         found = []
-        for k, side in ((0, 1), (1, -1)):
-            way = place - self.motor[k]
-            reach = np.hypot(*way)
-            found.append(np.arctan2(way[1], way[0]) + side*np.arccos((self.upper**2 + reach**2 - self.fore**2)/(2*self.upper*reach)))
+        for motor, side in zip(self.motor, (1, -1)):
+            reach, angle = cmath.polar(place - motor)
+            found.append(angle + side*math.acos((self.upper**2 + reach**2 - self.fore**2)/(2*self.upper*reach)))
         return found
 
     def led(self, share):
@@ -75,105 +77,101 @@ class Robot:
 
     def solve(self, q, w, e):
         """Places, velocities and accelerations of A, B, P, and both torques."""
-        elbow = [self.motor[k] + self.upper*unit(q[k]) for k in (0, 1)]
-        v = [self.upper*w[k]*ACROSS @ unit(q[k]) for k in (0, 1)]
-        a = [self.upper*(e[k]*ACROSS @ unit(q[k]) - w[k]**2*unit(q[k])) for k in (0, 1)]
+        upper = [cmath.rect(self.upper, angle) for angle in q]
+        elbow = [self.motor[k] + upper[k] for k in (0, 1)]
+        v = [1j*w[k]*upper[k] for k in (0, 1)]
+        a = [(1j*e[k] - w[k]**2)*upper[k] for k in (0, 1)]
         way = elbow[1] - elbow[0]
-        length = np.hypot(*way)
-        tool = 0.5*(elbow[0] + elbow[1]) + ACROSS @ way/length*np.sqrt(self.fore**2 - 0.25*length**2)
-        arm = [tool - elbow[k] for k in (0, 1)]
-        loop = np.column_stack([ACROSS @ arm[0], -ACROSS @ arm[1]])
-        turn = np.linalg.solve(loop, v[1] - v[0])
-        bend = np.linalg.solve(loop, a[1] - a[0] + turn[0]**2*arm[0] - turn[1]**2*arm[1])
-        v.append(v[0] + turn[0]*ACROSS @ arm[0])
-        a.append(a[0] + bend[0]*ACROSS @ arm[0] - turn[0]**2*arm[0])
-        return elbow + [tool], v, a, self.torques(q, w, e, arm, a, turn, bend)
+        tool = 0.5*(elbow[0] + elbow[1]) + 1j*way/abs(way)*math.sqrt(self.fore**2 - 0.25*abs(way)**2)
+        arm = [tool - place for place in elbow]
 
-    def torques(self, q, w, e, arm, a, turn, bend):
-        """Newton and Euler for all bodies: forces at motors, elbows and tool, then both torques are unknown."""
-        matrix, right, row = np.zeros((14, 14)), np.zeros(14), 0
-        moment = lambda r: np.array([-r[1], r[0]])
-        for k in (0, 1):
-            motor, elbow, tool = (slice(2*k + n, 2*k + n + 2) for n in (0, 4, 8))
-            along = unit(q[k])
-            r = self.centre[k]*along
-            matrix[row:row + 2, motor] = matrix[row:row + 2, elbow] = np.eye(2)
-            right[row:row + 2] = self.mass[k]*(e[k]*ACROSS @ r - w[k]**2*r - self.gravity)
-            matrix[row + 2, motor], matrix[row + 2, elbow], matrix[row + 2, 12 + k] = moment(-r), moment(self.upper*along - r), 1
-            right[row + 2] = self.inertia[k]*e[k]
-            r = self.centre[2 + k]*arm[k]/self.fore
-            matrix[row + 3:row + 5, elbow], matrix[row + 3:row + 5, tool] = -np.eye(2), np.eye(2)
-            right[row + 3:row + 5] = self.mass[2 + k]*(a[k] + bend[k]*ACROSS @ r - turn[k]**2*r - self.gravity)
-            matrix[row + 5, elbow], matrix[row + 5, tool] = -moment(-r), moment(arm[k] - r)
-            right[row + 5] = self.inertia[2 + k]*bend[k]
-            row += 6
-        matrix[row:, 8:10] = matrix[row:, 10:12] = -np.eye(2)
-        right[row:] = self.tool*(a[2] - self.gravity)
-        return np.linalg.solve(matrix, right)[12:]
+        def loop(gap):  # the turns with turn[0]*1j*arm[0] - turn[1]*1j*arm[1] = gap
+            return [cross(-1j*gap, arm[1 - k])/cross(arm[0], arm[1]) for k in (0, 1)]
+
+        turn = loop(v[1] - v[0])
+        bend = loop(a[1] - a[0] + turn[0]**2*arm[0] - turn[1]**2*arm[1])
+        v.append(v[0] + 1j*turn[0]*arm[0])
+        a.append(a[0] + (1j*bend[0] - turn[0]**2)*arm[0])
+        return elbow + [tool], v, a, self.torques(w, e, upper, arm, a, turn, bend)
+
+    def torques(self, w, e, upper, arm, a, turn, bend):
+        """Newton and Euler: forearms about their elbows give the forces at the tool, then upper arms about the motors the torques."""
+        def needs(body, along, start, rate, change):  # the force of a body, and its moment about its first pin
+            r = self.centre[body]*along/abs(along)
+            force = self.mass[body]*(start + (1j*change - rate**2)*r - self.gravity)
+            return force, self.inertia[body]*change + cross(r, force)
+
+        fore = [needs(2 + k, arm[k], a[k], turn[k], bend[k]) for k in (0, 1)]
+        load = self.tool*(self.gravity - a[2])  # of the tool upon both forearms
+        moments = fore[0][1], cross(arm[1], load) - fore[1][1]  # of the force upon the first, about both elbows
+        first = (moments[0]*arm[1] - moments[1]*arm[0])/cross(arm[0], arm[1])
+        elbow = [first - fore[0][0], load - first - fore[1][0]]
+        return [needs(k, upper[k], 0, w[k], e[k])[1] - cross(upper[k], elbow[k]) for k in (0, 1)]
 
     def deck(self, cards):
-        m = self.motor
         bodies = [("left", "M A", self.upper), ("right", "N B", self.upper), ("one", "A P", self.fore), ("two", "B P", self.fore)]
-        return "\n".join(["UNITS m kg s", f"GROUND M {m[0, 0]} {m[0, 1]}", f"GROUND N {m[1, 0]} {m[1, 1]}"] + [
+        return "\n".join(["UNITS m kg s"] + [f"GROUND {name} {place.real} {place.imag}" for name, place in zip("MN", self.motor)] + [
             f"LINK {name} {pins} length={length} mass={self.mass[k]} inertia={self.inertia[k]} center={self.centre[k]},0"
             for k, (name, pins, length) in enumerate(bodies)] + [
-            f"PINMASS P {self.tool}", f"GRAVITY {self.gravity[0]} {self.gravity[1]}", "BRANCH P left A B"] + cards) + "\n"
+            f"PINMASS P {self.tool}", f"GRAVITY {self.gravity.real} {self.gravity.imag}", "BRANCH P left A B"] + cards) + "\n"
 
 
 def rows_of(path):
-    with open(path) as table:
+    with open(path, encoding="utf-8") as table:
         return [line.split() for line in table if line.strip() and not line.startswith("#")]
 
 
 def check(number, program, folder):
     """Largest differences, as shares of the largest values; of ratings of the peak."""
-    random = np.random.default_rng(number)
-    robot, period, count = Robot(random), random.uniform(0.8, 3), 40
-    times = np.round(np.linspace(0, period, count + 1), 9)
+    rng = random.Random(number)
+    robot, period, count = Robot(rng), rng.uniform(0.8, 3), 40
+    times = [round(period*n/count, 9) for n in range(count + 1)]
     period = times[-1]
-    angles = np.round(np.degrees([robot.angles(robot.led(t/period)) for t in times]), 9)
+    angles = [[round(math.degrees(angle), 9) for angle in robot.angles(robot.led(t/period))] for t in times]
     angles[-1] = angles[0]
-    tables = [" ".join(f"{t:.9f} {q:.9f}" for t, q in zip(times, angles[:, k])) for k in (0, 1)]
+    tables = [" ".join(f"{t:.9f} {q[k]:.9f}" for t, q in zip(times, angles)) for k in (0, 1)]
     path = os.path.join(folder, f"robot{number}.deck")
-    with open(path, "w") as deck:
+    with open(path, "w", encoding="utf-8") as deck:
         deck.write(robot.deck(["DRIVE left law=l", "DRIVE right law=r", "LAW l table=lt ends=periodic", "LAW r table=rt ends=periodic"] + [
             f"TABLE {name} s deg " + table for name, table in zip(("lt", "rt"), tables)] + [
             f"TIME 0 to {1.5*period} step {period/37}", "REPORT pins", "REPORT drives", "REPORT sizing"]))
     subprocess.run([program, "--quiet", "--out", folder, path], check=True)
-    splines = [Periodic(times, np.radians(angles[:, k])) for k in (0, 1)]
-    motion = lambda t: [np.array(values) for values in zip(*(spline(t) for spline in splines))]
+    splines = [Periodic(times, [math.radians(q[k]) for q in angles]) for k in (0, 1)]
+    motion = lambda t: list(zip(*(spline(t) for spline in splines)))
     differences, scales = {}, {}
 
-    def compare(kind, found, exact):
-        found, exact = np.asarray(found, float), np.asarray(exact, float)
-        differences[kind] = max(differences.get(kind, 0), np.max(np.abs(found - exact)))
-        scales[kind] = max(scales.get(kind, 0), np.max(np.abs(exact)))
+    def compare(kind, found, exact, scale=0):
+        difference = min(math.inf, abs(float(found) - exact))  # NaN is infinite
+        differences[kind] = max(differences.get(kind, 0), difference)
+        scales[kind] = max(scales.get(kind, 0), scale or abs(exact))
 
     out = os.path.join(folder, f"robot{number}")
     for row in rows_of(os.path.join(out, "pins.dat")):
         exact = robot.solve(*motion(float(row[0])))
-        for kind, values in zip(("place", "velocity", "acceleration"), exact):
-            n = ("place", "velocity", "acceleration").index(kind)
+        for n, kind in enumerate(("place", "velocity", "acceleration")):
             if row[3] in "ABP":
-                compare(kind, [float(x) for x in row[4 + 2*n:6 + 2*n]], values["ABP".index(row[3])])
+                value = exact[n]["ABP".index(row[3])]
+                compare(kind, row[4 + 2*n], value.real)
+                compare(kind, row[5 + 2*n], value.imag)
     for row in rows_of(os.path.join(out, "drives.dat")):
         now, k = motion(float(row[0])), ("left", "right").index(row[3])
-        compare("angle", float(row[4]), np.degrees(now[0][k]))
-        compare("rate", float(row[5]), now[1][k])
-        compare("torque", float(row[6]), robot.solve(*now)[3][k])
-    torque = np.array([robot.solve(*motion(t))[3] for t in np.arange(40*count)*period/(40*count)])
+        compare("angle", row[4], math.degrees(now[0][k]))
+        compare("rate", row[5], now[1][k])
+        compare("torque", row[6], robot.solve(*now)[3][k])
+    torques = list(zip(*(robot.solve(*motion(n*period/(40*count)))[3] for n in range(40*count))))
+    peaks = [max(map(abs, values)) for values in torques]
     for row in rows_of(os.path.join(out, "sizing.dat")):
         if row[1] != "-" or not row[2].endswith("_torque"):
             continue
-        values, peak = torque[:, ("left", "right").index(row[0])], np.max(np.abs(torque))
-        exact = {"peak": np.max(np.abs(values)), "rms": np.sqrt(np.mean(values**2)), "mean": np.mean(values)}[row[2][:-7]]
-        differences["rating"] = max(differences.get("rating", 0), abs((abs(float(row[3])) if row[2][0] == "p" else float(row[3])) - exact))
-        scales["rating"] = peak
+        k, kind = ("left", "right").index(row[0]), row[2][:-7]
+        values = torques[k]
+        exact = {"peak": peaks[k], "rms": math.hypot(*values)/math.sqrt(len(values)), "mean": math.fsum(values)/len(values)}[kind]
+        compare("rating", abs(float(row[3])) if kind == "peak" else row[3], exact, max(peaks))
     return {kind: differences[kind]/scales[kind] for kind in differences}
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split(":")[0])
+    parser = argparse.ArgumentParser(description=__doc__.split(":", maxsplit=1)[0])
     parser.add_argument("first", type=int)
     parser.add_argument("last", type=int)
     parser.add_argument("--program", default="build/release/flexmech")
