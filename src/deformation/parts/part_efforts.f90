@@ -81,10 +81,10 @@ contains
           wrench = coordinate_wrenches(linkage, pose, load%along)
           do k = 1, 2
             if (is_torsional(load)) then
-              call add_end_couple(elastic, wrench(k)%at%body, spring_pin(linkage, i), &
+              call add_end_couple(elastic, load%along%at(k)%body, spring_pin(linkage, i), &
                 -pull(i)*wrench(k)%couple, loads)
             else
-              call add_force(elastic, placed, i, wrench(k)%at, -pull(i)*wrench(k)%force, loads)
+              call add_force(elastic, placed, i, load%along%at(k), -pull(i)*wrench(k)%force, loads)
             end if
           end do
         end select

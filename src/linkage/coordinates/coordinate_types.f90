@@ -43,8 +43,7 @@ module coordinate_types
 
   !> What an effort of 1 along a coordinate puts on one of its terminals.
   type :: wrench_t
-    type(terminal_t) :: at
-    real(wp) :: place(2) !! of the terminal, counted as the pins of the pose [m]
+    real(wp) :: place(2) !! of the terminal, counted as the pins of the pose; 0 without a force [m]
     real(wp) :: force(2) !! there, global axes
     real(wp) :: couple
   end type wrench_t

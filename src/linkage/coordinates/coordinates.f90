@@ -13,12 +13,12 @@ module coordinates
   use lines, only: line_acceleration, line_axis, line_couple, line_rate, line_value
   use linkages, only: cross, drive_of_angle, linkage_t
   use pose_types, only: kinematic_coefficients_t, pose_t
-  use terminals, only: frames_of, terminal_acceleration, twists_of
+  use terminals, only: frames_of, places_of, terminal_acceleration, terminal_direction, twists_of
   implicit none (type, external)
   private
 
   public :: coordinate_value, coordinate_rate, coordinate_acceleration, coordinate_wrenches, &
-    terms_in, slider_coordinate, is_turning
+    slider_coordinate, is_turning
 
 contains
 
@@ -69,38 +69,6 @@ contains
     acceleration = derivative(2, linkage, pose, motion, coordinate)
   end function coordinate_acceleration
 
-  !> What an effort of 1 along a coordinate puts on its terminals: the virtual work of these is its
-  !! change.
-  pure function coordinate_wrenches(linkage, pose, coordinate) result(wrench)
-    type(linkage_t), intent(in) :: linkage !! as for `coordinate_value`
-    type(pose_t), intent(in) :: pose       !! positions and directions
-    type(coordinate_t), intent(in) :: coordinate
-    type(wrench_t) :: wrench(2*terms_in(coordinate))
-
-    integer :: i, k
-
-    if (coordinate%kind /= is_sum) then
-      wrench = simple_wrenches(linkage, pose, coordinate)
-      return
-    end if
-    do i = 1, size(coordinate%term)
-      wrench(2*i - 1:2*i) = simple_wrenches(linkage, pose, linkage%coordinates(coordinate%term(i)))
-      do k = 2*i - 1, 2*i
-        wrench(k)%force = coordinate%weight(i)*wrench(k)%force
-        wrench(k)%couple = coordinate%weight(i)*wrench(k)%couple
-      end do
-    end do
-  end function coordinate_wrenches
-
-  !> How many a sum adds; 1 of one that is no sum.
-  pure function terms_in(coordinate) result(number)
-    type(coordinate_t), intent(in) :: coordinate
-    integer :: number
-
-    number = 1
-    if (coordinate%kind == is_sum) number = size(coordinate%term)
-  end function terms_in
-
   !> Whether it is an angle, not a length.
   pure function is_turning(linkage, coordinate) result(is)
     type(linkage_t), intent(in) :: linkage !! the terms of a sum
@@ -133,7 +101,7 @@ contains
     real(wp), intent(in) :: crank !! of the first drive [deg] or [m]
     real(wp) :: value
 
-    type(frame_t) :: frame(2)
+    real(wp) :: direction(2, 2)
 
     value = 0.0_wp
     if (coordinate%drive > 0) then
@@ -141,16 +109,17 @@ contains
       if (linkage%drives(coordinate%drive)%kind == drive_of_angle) value = value*degree
       return
     end if
-    frame = frames_of(linkage, pose, coordinate%at)
     select case (coordinate%kind)
     case (is_distance)
-      value = distance_value(frame)
+      value = distance_value(places_of(linkage, pose, coordinate%at))
     case (is_along, is_across)
-      value = line_value(frame, coordinate%kind == is_across)
+      value = line_value(frames_of(linkage, pose, coordinate%at), coordinate%kind == is_across)
     case (is_angle)
+      direction(:, 1) = terminal_direction(pose, coordinate%at(1))
+      direction(:, 2) = terminal_direction(pose, coordinate%at(2))
       ! Adding zero turns −0 into 0.
-      value = atan2(cross(frame(1)%direction, frame(2)%direction) + 0.0_wp, &
-        dot_product(frame(1)%direction, frame(2)%direction) + 0.0_wp)
+      value = atan2(cross(direction(:, 1), direction(:, 2)) + 0.0_wp, &
+        dot_product(direction(:, 1), direction(:, 2)) + 0.0_wp)
     end select
   end function simple_value
 
@@ -207,7 +176,7 @@ contains
     twist = twists_of(linkage, pose, motion, coordinate%at)
     select case (coordinate%kind)
     case (is_distance)
-      rate = distance_rate(frames_of(linkage, pose, coordinate%at), twist)
+      rate = distance_rate(places_of(linkage, pose, coordinate%at), twist)
     case (is_along, is_across)
       rate = line_rate(frames_of(linkage, pose, coordinate%at), twist, &
         coordinate%kind == is_across)
@@ -224,54 +193,60 @@ contains
     type(coordinate_t), intent(in) :: coordinate
     real(wp) :: acceleration
 
-    type(frame_t) :: frame(2)
     type(twist_t) :: twist(2), slope(2)
     integer :: k
 
     acceleration = 0.0_wp
-    frame = frames_of(linkage, pose, coordinate%at)
     twist = twists_of(linkage, pose, motion, coordinate%at)
     do k = 1, 2
       slope(k) = terminal_acceleration(linkage, pose, motion, coordinate%at(k))
     end do
     select case (coordinate%kind)
     case (is_distance)
-      acceleration = distance_acceleration(frame, twist, slope)
+      acceleration = distance_acceleration(places_of(linkage, pose, coordinate%at), twist, slope)
     case (is_along, is_across)
-      acceleration = line_acceleration(frame, twist, slope, coordinate%kind == is_across)
+      acceleration = line_acceleration(frames_of(linkage, pose, coordinate%at), twist, slope, &
+        coordinate%kind == is_across)
     case (is_angle)
       acceleration = slope(2)%turn - slope(1)%turn
     end select
   end function simple_acceleration
 
-  !> What an effort of 1 along one that is no sum puts on its terminals.
-  pure function simple_wrenches(linkage, pose, coordinate) result(wrench)
+  !> What an effort of 1 along one that is no sum puts on its terminals: the virtual work of this is
+  !! its change.
+  pure function coordinate_wrenches(linkage, pose, coordinate) result(wrench)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(coordinate_t), intent(in) :: coordinate
     type(wrench_t) :: wrench(2)
 
     type(frame_t) :: frame(2)
+    real(wp) :: place(2, 2)
     integer :: k
 
-    frame = frames_of(linkage, pose, coordinate%at)
     do k = 1, 2
-      wrench(k)%at = coordinate%at(k)
-      wrench(k)%place = frame(k)%place
+      wrench(k)%place = 0.0_wp
       wrench(k)%force = 0.0_wp
       wrench(k)%couple = 0.0_wp
     end do
-    select case (coordinate%kind)
-    case (is_distance)
-      wrench(2)%force = distance_axis(frame)
-    case (is_along, is_across)
-      wrench(2)%force = line_axis(frame, coordinate%kind == is_across)
-      wrench(1)%couple = line_couple(frame, coordinate%kind == is_across)
-    case (is_angle)
+    if (coordinate%kind == is_angle) then
       wrench(2)%couple = 1.0_wp
       wrench(1)%couple = -1.0_wp
-    end select
+      return
+    end if
+    if (coordinate%kind == is_distance) then
+      place = places_of(linkage, pose, coordinate%at)
+      wrench(1)%place = place(:, 1)
+      wrench(2)%place = place(:, 2)
+      wrench(2)%force = distance_axis(place)
+    else
+      frame = frames_of(linkage, pose, coordinate%at)
+      wrench(1)%place = frame(1)%place
+      wrench(2)%place = frame(2)%place
+      wrench(2)%force = line_axis(frame, coordinate%kind == is_across)
+      wrench(1)%couple = line_couple(frame, coordinate%kind == is_across)
+    end if
     wrench(1)%force = -wrench(2)%force
-  end function simple_wrenches
+  end function coordinate_wrenches
 
 end module coordinates

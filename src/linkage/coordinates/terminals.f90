@@ -7,7 +7,8 @@ module terminals
   implicit none (type, external)
   private
 
-  public :: terminal_place, terminal_velocity, terminal_acceleration, frames_of, twists_of, is_fixed
+  public :: terminal_place, terminal_velocity, terminal_direction, terminal_acceleration, &
+    frames_of, places_of, twists_of, is_fixed
 
 contains
 
@@ -22,11 +23,19 @@ contains
 
     do k = 1, 2
       frame(k)%place = terminal_place(linkage, pose, at(k))
-      frame(k)%direction = at(k)%direction
-      if (at(k)%body > 0) frame(k)%direction = turned(at(k)%direction, &
-        pose%direction(:, at(k)%body))
+      frame(k)%direction = terminal_direction(pose, at(k))
     end do
   end function frames_of
+
+  !> Direction of a terminal, unit vector in global axes.
+  pure function terminal_direction(pose, at) result(direction)
+    type(pose_t), intent(in) :: pose !! directions of the bodies
+    type(terminal_t), intent(in) :: at
+    real(wp) :: direction(2)
+
+    direction = at%direction
+    if (at%body > 0) direction = turned(at%direction, pose%direction(:, at%body))
+  end function terminal_direction
 
   !> Where a terminal is, counted as the pins of the pose [m].
   pure function terminal_place(linkage, pose, at) result(place)
@@ -62,6 +71,17 @@ contains
       velocity = motion%pin(:, at%pin)
     end if
   end function terminal_velocity
+
+  !> Places of two terminals, counted as the pins of the pose [m].
+  pure function places_of(linkage, pose, at) result(place)
+    type(linkage_t), intent(in) :: linkage !! first pins of its bodies
+    type(pose_t), intent(in) :: pose       !! positions and directions
+    type(terminal_t), intent(in) :: at(2)
+    real(wp) :: place(2, 2)                !! (2, terminals)
+
+    place(:, 1) = terminal_place(linkage, pose, at(1))
+    place(:, 2) = terminal_place(linkage, pose, at(2))
+  end function places_of
 
   !> Velocities of two terminals.
   pure function twists_of(linkage, pose, motion, at) result(twist)

@@ -3,8 +3,8 @@
 module applied_loads
   use applied_load_types, only: acts_always, applied_load_t, applies_along, applies_couple, &
     applies_force, over_nothing
-  use coordinate_types, only: coordinate_t, terminal_t, wrench_t
-  use coordinates, only: coordinate_rate, coordinate_wrenches, terms_in
+  use coordinate_types, only: coordinate_t, is_angle, is_sum, terminal_t, wrench_t
+  use coordinates, only: coordinate_rate, coordinate_wrenches
   use inertia_loads, only: load_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -353,18 +353,39 @@ contains
     type(coordinate_t), intent(in) :: coordinate
     real(wp) :: scale
 
-    type(wrench_t) :: wrench(2*terms_in(coordinate))
+    integer :: i
+
+    if (coordinate%kind /= is_sum) then
+      scale = simple_scale(linkage, pose, per, coordinate)
+      return
+    end if
+    scale = 0.0_wp
+    do i = 1, size(coordinate%term)
+      scale = scale + abs(coordinate%weight(i))*simple_scale(linkage, pose, per, &
+        linkage%coordinates(coordinate%term(i)))
+    end do
+  end function work_scale
+
+  !> The same along one that is no sum.
+  pure function simple_scale(linkage, pose, per, coordinate) result(scale)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: per
+    type(coordinate_t), intent(in) :: coordinate
+    real(wp) :: scale
+
+    type(wrench_t) :: wrench(2)
     integer :: k
 
     wrench = coordinate_wrenches(linkage, pose, coordinate)
     scale = 0.0_wp
-    do k = 1, size(wrench)
-      associate (at => wrench(k)%at)
+    do k = 1, 2
+      associate (at => coordinate%at(k))
         scale = scale + norm2(wrench(k)%force)*norm2(terminal_velocity(linkage, pose, per, at))
         if (at%body > 0) scale = scale + abs(wrench(k)%couple*per%turn(at%body))
       end associate
     end do
-  end function work_scale
+  end function simple_scale
 
   !> Generalised force of loads: their virtual work per change of the coordinate for which the
   !! coefficients stand [N m] or [N].
@@ -473,19 +494,41 @@ contains
     type(load_t), intent(inout) :: body_load(:)
     real(wp), intent(inout) :: pin_load(:, :)
 
-    type(wrench_t) :: wrench(2*terms_in(coordinate))
+    integer :: i
+
+    if (coordinate%kind /= is_sum) then
+      call add_simple_effort(linkage, pose, coordinate, effort, body_load, pin_load)
+      return
+    end if
+    do i = 1, size(coordinate%term)
+      call add_simple_effort(linkage, pose, linkage%coordinates(coordinate%term(i)), &
+        coordinate%weight(i)*effort, body_load, pin_load)
+    end do
+  end subroutine add_effort
+
+  !> The same along one that is no sum.
+  pure subroutine add_simple_effort(linkage, pose, coordinate, effort, body_load, pin_load)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(coordinate_t), intent(in) :: coordinate
+    real(wp), intent(in) :: effort
+    type(load_t), intent(inout) :: body_load(:)
+    real(wp), intent(inout) :: pin_load(:, :)
+
+    type(wrench_t) :: wrench(2)
     integer :: k
 
     wrench = coordinate_wrenches(linkage, pose, coordinate)
-    do k = 1, size(wrench)
-      associate (at => wrench(k)%at)
+    do k = 1, 2
+      associate (at => coordinate%at(k))
         if (at%body == 0 .and. at%pin == 0) cycle
-        call add_force(pose, at, effort*wrench(k)%force, body_load, pin_load)
+        if (coordinate%kind /= is_angle) call add_force(pose, at, effort*wrench(k)%force, &
+          body_load, pin_load)
         if (at%body > 0) body_load(at%body)%moment = body_load(at%body)%moment + &
           effort*wrench(k)%couple
       end associate
     end do
-  end subroutine add_effort
+  end subroutine add_simple_effort
 
   !> Adds a force at a place.
   pure subroutine add_force(pose, at, force, body_load, pin_load)

@@ -1,8 +1,8 @@
 !> What springs, dampers and stops that stand on the ground put on it.
 module ground_loads
-  use coordinate_types, only: coordinate_t, wrench_t
-  use coordinates, only: coordinate_wrenches, terms_in
   use applied_load_types, only: applies_along
+  use coordinate_types, only: coordinate_t, is_sum, wrench_t
+  use coordinates, only: coordinate_wrenches
   use kinds, only: wp
   use linkages, only: cross, linkage_t, reference_point
   use pose_types, only: pose_t
@@ -39,18 +39,39 @@ contains
     real(wp), intent(in) :: effort !! [N] or [N m]
     real(wp) :: total(3)
 
-    type(wrench_t) :: wrench(2*terms_in(coordinate))
+    integer :: i
+
+    if (coordinate%kind /= is_sum) then
+      total = simple_on_ground(linkage, pose, coordinate, effort)
+      return
+    end if
+    total = 0.0_wp
+    do i = 1, size(coordinate%term)
+      total = total + simple_on_ground(linkage, pose, linkage%coordinates(coordinate%term(i)), &
+        coordinate%weight(i)*effort)
+    end do
+  end function on_ground
+
+  !> The same along one that is no sum.
+  pure function simple_on_ground(linkage, pose, coordinate, effort) result(total)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose
+    type(coordinate_t), intent(in) :: coordinate
+    real(wp), intent(in) :: effort
+    real(wp) :: total(3)
+
+    type(wrench_t) :: wrench(2)
     integer :: k
 
     wrench = coordinate_wrenches(linkage, pose, coordinate)
     total = 0.0_wp
-    do k = 1, size(wrench)
-      if (.not. is_fixed(linkage, wrench(k)%at)) cycle
+    do k = 1, 2
+      if (.not. is_fixed(linkage, coordinate%at(k))) cycle
       associate (force => effort*wrench(k)%force)
         total = total + [force, effort*wrench(k)%couple + cross(wrench(k)%place + pose%origin - &
           reference_point(linkage), force)]
       end associate
     end do
-  end function on_ground
+  end function simple_on_ground
 
 end module ground_loads
