@@ -476,6 +476,7 @@ contains
     type(card_t), intent(in) :: cards(:) !! all of the deck
     logical :: of_length
 
+    type(token_t) :: word
     integer :: i
     logical :: is_known
 
@@ -487,9 +488,8 @@ contains
       is_known = .true.
       if (size(law%words) == 0) return
       if (.not. has_value(cards(i), "law")) cycle
-      associate (word => value_of(cards(i), "law"))
-        if (.not. same_word(word%text, law%words(1)%text)) cycle
-      end associate
+      word = value_of(cards(i), "law")
+      if (.not. same_word(word%text, law%words(1)%text)) cycle
       of_length = moves_along(kind_of_drive(cards(i)))
       return
     end do
