@@ -7,7 +7,7 @@ module coordinate_builder
   use measure_cards, only: measure_across, measure_angle, measure_card_t, measure_distance, &
     measure_sum, measure_travel
   use models, only: model_t
-  use name_index, only: find_name, name_index_t
+  use name_index, only: name_index_t
   use named_coordinates, only: coordinate_number, find_named_coordinates, named_coordinate_t, &
     of_measure, of_ram, of_slider, of_spring
   use process_cards, only: over_measure

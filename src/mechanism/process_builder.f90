@@ -6,7 +6,6 @@ module process_builder
   use coordinate_types, only: is_along
   use coordinates, only: slider_coordinate
   use cubic_splines, only: ends_not_a_knot, ends_periodic, new_cubic_spline, new_monotone_spline
-  use kinds, only: wp
   use linkages, only: linkage_t, turned
   use models, only: model_t
   use name_index, only: find_name, name_index_t

@@ -4,6 +4,7 @@ module stop_builder
   use kinds, only: wp
   use linkages, only: linkage_t
   use models, only: model_t
+  use rigid_bodies, only: rigid_bodies_of, total_mass
   implicit none (type, external)
   private
 
@@ -44,16 +45,13 @@ contains
     logical, intent(in) :: turns           !! it is of an angle
     real(wp) :: width
 
-    real(wp) :: mass
-    integer :: b
+    integer :: elements(size(linkage%bodies))
 
     width = given
     if (given > 0.0_wp) return
-    mass = sum(linkage%pin_mass) + sum(linkage%bodies%line_density*linkage%bodies%length)
-    do b = 1, size(linkage%bodies)
-      mass = mass + sum(linkage%bodies(b)%lumps%mass)
-    end do
-    width = 0.01_wp*mass*norm2(linkage%gravity)/stiffness
+    elements = 0
+    width = 0.01_wp*total_mass(linkage, rigid_bodies_of(linkage, elements))* &
+      norm2(linkage%gravity)/stiffness
     if (turns) width = width*maxval(linkage%bodies%length)
   end function contact_width
 

@@ -23,7 +23,7 @@ module coordinates
 contains
 
   !> Its value [m] or [rad].
-  pure function coordinate_value(linkage, pose, coordinate, crank) result(value)
+  pure recursive function coordinate_value(linkage, pose, coordinate, crank) result(value)
     type(linkage_t), intent(in) :: linkage !! its bodies, and the terms of a sum
     type(pose_t), intent(in) :: pose       !! positions and directions
     type(coordinate_t), intent(in) :: coordinate
@@ -31,42 +31,100 @@ contains
                                            !! one pose; absent: that of the pose [deg] or [m]
     real(wp) :: value
 
-    real(wp) :: at
+    real(wp) :: direction(2, 2), at
     integer :: i
 
-    at = pose%crank
-    if (present(crank)) at = crank
-    if (coordinate%kind /= is_sum) then
-      value = simple_value(linkage, pose, coordinate, at)
+    value = 0.0_wp
+    if (coordinate%drive > 0) then
+      at = pose%crank
+      if (present(crank)) at = crank
+      value = drive_value(linkage, coordinate%drive, at)
+      if (linkage%drives(coordinate%drive)%kind == drive_of_angle) value = value*degree
       return
     end if
-    value = 0.0_wp
-    do i = 1, size(coordinate%term)
-      value = value + coordinate%weight(i)*simple_value(linkage, pose, &
-        linkage%coordinates(coordinate%term(i)), at)
-    end do
+    select case (coordinate%kind)
+    case (is_distance)
+      value = distance_value(places_of(linkage, pose, coordinate%at))
+    case (is_along, is_across)
+      value = line_value(frames_of(linkage, pose, coordinate%at), coordinate%kind == is_across)
+    case (is_angle)
+      direction(:, 1) = terminal_direction(pose, coordinate%at(1))
+      direction(:, 2) = terminal_direction(pose, coordinate%at(2))
+      ! Adding zero turns −0 into 0.
+      value = atan2(cross(direction(:, 1), direction(:, 2)) + 0.0_wp, &
+        dot_product(direction(:, 1), direction(:, 2)) + 0.0_wp)
+    case (is_sum)
+      do i = 1, size(coordinate%term)
+        value = value + coordinate%weight(i)*coordinate_value(linkage, pose, &
+          linkage%coordinates(coordinate%term(i)), crank)
+      end do
+    end select
   end function coordinate_value
 
   !> Its rate [m/s] or [rad/s].
-  pure function coordinate_rate(linkage, pose, motion, coordinate) result(rate)
+  pure recursive function coordinate_rate(linkage, pose, motion, coordinate) result(rate)
     type(linkage_t), intent(in) :: linkage !! as for `coordinate_value`
     type(pose_t), intent(in) :: pose       !! positions and directions
     type(kinematic_coefficients_t), intent(in) :: motion !! velocities of pins and bodies
     type(coordinate_t), intent(in) :: coordinate
     real(wp) :: rate
 
-    rate = derivative(1, linkage, pose, motion, coordinate)
+    type(twist_t) :: twist(2)
+    integer :: i
+
+    rate = 0.0_wp
+    if (coordinate%kind == is_sum) then
+      do i = 1, size(coordinate%term)
+        rate = rate + coordinate%weight(i)*coordinate_rate(linkage, pose, motion, &
+          linkage%coordinates(coordinate%term(i)))
+      end do
+      return
+    end if
+    twist = twists_of(linkage, pose, motion, coordinate%at)
+    select case (coordinate%kind)
+    case (is_distance)
+      rate = distance_rate(places_of(linkage, pose, coordinate%at), twist)
+    case (is_along, is_across)
+      rate = line_rate(frames_of(linkage, pose, coordinate%at), twist, &
+        coordinate%kind == is_across)
+    case (is_angle)
+      rate = twist(2)%turn - twist(1)%turn
+    end select
   end function coordinate_rate
 
   !> Its acceleration [m/s²] or [rad/s²].
-  pure function coordinate_acceleration(linkage, pose, motion, coordinate) result(acceleration)
+  pure recursive function coordinate_acceleration(linkage, pose, motion, coordinate) &
+    result(acceleration)
     type(linkage_t), intent(in) :: linkage !! as for `coordinate_value`
     type(pose_t), intent(in) :: pose       !! positions and directions
     type(kinematic_coefficients_t), intent(in) :: motion !! velocities and accelerations
     type(coordinate_t), intent(in) :: coordinate
     real(wp) :: acceleration
 
-    acceleration = derivative(2, linkage, pose, motion, coordinate)
+    type(twist_t) :: twist(2), slope(2)
+    integer :: i
+
+    acceleration = 0.0_wp
+    if (coordinate%kind == is_sum) then
+      do i = 1, size(coordinate%term)
+        acceleration = acceleration + coordinate%weight(i)*coordinate_acceleration(linkage, pose, &
+          motion, linkage%coordinates(coordinate%term(i)))
+      end do
+      return
+    end if
+    twist = twists_of(linkage, pose, motion, coordinate%at)
+    do i = 1, 2
+      slope(i) = terminal_acceleration(linkage, pose, motion, coordinate%at(i))
+    end do
+    select case (coordinate%kind)
+    case (is_distance)
+      acceleration = distance_acceleration(places_of(linkage, pose, coordinate%at), twist, slope)
+    case (is_along, is_across)
+      acceleration = line_acceleration(frames_of(linkage, pose, coordinate%at), twist, slope, &
+        coordinate%kind == is_across)
+    case (is_angle)
+      acceleration = slope(2)%turn - slope(1)%turn
+    end select
   end function coordinate_acceleration
 
   !> Whether it is an angle, not a length.
@@ -92,125 +150,6 @@ contains
       coordinate%at(2)%pin = slider%pin
     end associate
   end function slider_coordinate
-
-  !> The value of one that is no sum.
-  pure function simple_value(linkage, pose, coordinate, crank) result(value)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(coordinate_t), intent(in) :: coordinate
-    real(wp), intent(in) :: crank !! of the first drive [deg] or [m]
-    real(wp) :: value
-
-    real(wp) :: direction(2, 2)
-
-    value = 0.0_wp
-    if (coordinate%drive > 0) then
-      value = drive_value(linkage, coordinate%drive, crank)
-      if (linkage%drives(coordinate%drive)%kind == drive_of_angle) value = value*degree
-      return
-    end if
-    select case (coordinate%kind)
-    case (is_distance)
-      value = distance_value(places_of(linkage, pose, coordinate%at))
-    case (is_along, is_across)
-      value = line_value(frames_of(linkage, pose, coordinate%at), coordinate%kind == is_across)
-    case (is_angle)
-      direction(:, 1) = terminal_direction(pose, coordinate%at(1))
-      direction(:, 2) = terminal_direction(pose, coordinate%at(2))
-      ! Adding zero turns −0 into 0.
-      value = atan2(cross(direction(:, 1), direction(:, 2)) + 0.0_wp, &
-        dot_product(direction(:, 1), direction(:, 2)) + 0.0_wp)
-    end select
-  end function simple_value
-
-  !> The rate or the acceleration.
-  pure function derivative(order, linkage, pose, motion, coordinate) result(slope)
-    integer, intent(in) :: order !! 1: the rate, 2: the acceleration
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: motion
-    type(coordinate_t), intent(in) :: coordinate
-    real(wp) :: slope
-
-    integer :: i
-
-    if (coordinate%kind /= is_sum) then
-      slope = simple_derivative(order, linkage, pose, motion, coordinate)
-      return
-    end if
-    slope = 0.0_wp
-    do i = 1, size(coordinate%term)
-      slope = slope + coordinate%weight(i)*simple_derivative(order, linkage, pose, motion, &
-        linkage%coordinates(coordinate%term(i)))
-    end do
-  end function derivative
-
-  !> The same of one that is no sum.
-  pure function simple_derivative(order, linkage, pose, motion, coordinate) result(slope)
-    integer, intent(in) :: order
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: motion
-    type(coordinate_t), intent(in) :: coordinate
-    real(wp) :: slope
-
-    slope = 0.0_wp
-    if (order == 1) then
-      slope = simple_rate(linkage, pose, motion, coordinate)
-    else
-      slope = simple_acceleration(linkage, pose, motion, coordinate)
-    end if
-  end function simple_derivative
-
-  !> The rate of one that is no sum.
-  pure function simple_rate(linkage, pose, motion, coordinate) result(rate)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: motion
-    type(coordinate_t), intent(in) :: coordinate
-    real(wp) :: rate
-
-    type(twist_t) :: twist(2)
-
-    rate = 0.0_wp
-    twist = twists_of(linkage, pose, motion, coordinate%at)
-    select case (coordinate%kind)
-    case (is_distance)
-      rate = distance_rate(places_of(linkage, pose, coordinate%at), twist)
-    case (is_along, is_across)
-      rate = line_rate(frames_of(linkage, pose, coordinate%at), twist, &
-        coordinate%kind == is_across)
-    case (is_angle)
-      rate = twist(2)%turn - twist(1)%turn
-    end select
-  end function simple_rate
-
-  !> The acceleration of one that is no sum.
-  pure function simple_acceleration(linkage, pose, motion, coordinate) result(acceleration)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: motion
-    type(coordinate_t), intent(in) :: coordinate
-    real(wp) :: acceleration
-
-    type(twist_t) :: twist(2), slope(2)
-    integer :: k
-
-    acceleration = 0.0_wp
-    twist = twists_of(linkage, pose, motion, coordinate%at)
-    do k = 1, 2
-      slope(k) = terminal_acceleration(linkage, pose, motion, coordinate%at(k))
-    end do
-    select case (coordinate%kind)
-    case (is_distance)
-      acceleration = distance_acceleration(places_of(linkage, pose, coordinate%at), twist, slope)
-    case (is_along, is_across)
-      acceleration = line_acceleration(frames_of(linkage, pose, coordinate%at), twist, slope, &
-        coordinate%kind == is_across)
-    case (is_angle)
-      acceleration = slope(2)%turn - slope(1)%turn
-    end select
-  end function simple_acceleration
 
   !> What an effort of 1 along one that is no sum puts on its terminals: the virtual work of this is
   !! its change.

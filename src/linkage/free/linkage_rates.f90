@@ -12,7 +12,7 @@ module linkage_rates
   use block_ends, only: refuse_leaving_block
   use constants, only: degree, two_pi
   use coordinate_types, only: coordinate_t, is_distance, is_sum, twist_t
-  use coordinates, only: coordinate_rate, coordinate_value
+  use coordinates, only: coordinate_value
   use dense_factor, only: dense_factor_t, factorize, solve
   use drives, only: drive_t, refuse_speed
   use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
@@ -31,7 +31,7 @@ module linkage_rates
   use motion_switches, only: has_switches, switches_at
   use pose_types, only: count_from, pose_t
   use poses, only: dead_point_sine, place_groups, place_links
-  use pulls, only: deflection
+  use pulls, only: contact_depth
   use rigid_bodies, only: rigid_body_t
   use terminals, only: twists_of
   use whole_systems, only: drive_acceleration, drive_position, drive_row, rate_along, whole_system_t
@@ -357,7 +357,7 @@ contains
     type(kinematic_coefficients_t) :: now
     real(wp) :: turn
     logical :: found
-    integer :: i, k
+    integer :: i
 
     step = huge(step)
     associate (linkage => self%whole%linkage)
@@ -366,24 +366,16 @@ contains
       if (.not. found) return
       turn = maxval(abs(now%turn))
       do i = 1, size(linkage%loads)
-        associate (along => linkage%loads(i)%along)
-          if (linkage%loads(i)%side == 0) cycle
-          if (along%kind == is_sum) then
-            do k = 1, size(along%term)
-              turn = max(turn, line_turn(linkage, pose, now, linkage%coordinates(along%term(k))))
-            end do
-          else
-            turn = max(turn, line_turn(linkage, pose, now, along))
-          end if
-        end associate
+        if (linkage%loads(i)%side /= 0) turn = max(turn, line_turn(linkage, pose, now, &
+          linkage%loads(i)%along))
       end do
     end associate
     if (turn > 0.0_wp) step = most_turn/turn
   end function longest_step
 
-  !> A bound of how fast the line between the ends of a distance turns; 0 of other coordinates
-  !! [rad/s].
-  pure function line_turn(linkage, pose, now, coordinate) result(turn)
+  !> A bound of how fast the line between the ends of a distance turns, of a sum the greatest of its
+  !! terms; 0 of other coordinates [rad/s].
+  pure recursive function line_turn(linkage, pose, now, coordinate) result(turn)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(kinematic_coefficients_t), intent(in) :: now
@@ -393,8 +385,14 @@ contains
     ! Ends that meet make no step vanish.
     real(wp), parameter :: least = 1.0e-3_wp
     type(twist_t) :: twist(2)
+    integer :: i
 
     turn = 0.0_wp
+    if (coordinate%kind == is_sum) then
+      do i = 1, size(coordinate%term)
+        turn = max(turn, line_turn(linkage, pose, now, linkage%coordinates(coordinate%term(i))))
+      end do
+    end if
     if (coordinate%kind /= is_distance) return
     twist = twists_of(linkage, pose, now, coordinate%at)
     turn = norm2(twist(2)%velocity - twist(1)%velocity)/max(coordinate_value(linkage, pose, &
@@ -427,8 +425,7 @@ contains
         associate (load => linkage%loads(i))
           if (load%side == 0) cycle
           n = n + 1
-          contacts(:, n) = [load%side*deflection(linkage, pose, load), &
-            load%side*coordinate_rate(linkage, pose, now, load%along), load%contact]
+          contacts(:, n) = [contact_depth(linkage, pose, now, load), load%contact]
         end associate
       end do
     end associate

@@ -23,8 +23,9 @@ module poses
   !! below this, it is at a dead point: velocities grow like its inverse.
   real(wp), parameter :: dead_point_sine = 1.0e-6_wp
 
-  !> Corrections below this share of the longest link are rounding of one that stands still.
-  real(wp), parameter :: still = 1.0e-9_wp
+  !> In time, corrections below this share of the longest link are rounding of one that stands
+  !! still.
+  real(wp), parameter, public :: still = 1.0e-9_wp
 
 contains
 

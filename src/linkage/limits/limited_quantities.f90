@@ -2,8 +2,8 @@
 !! at a pose, and how they change there.
 module limited_quantities
   use constants, only: degree
-  use coordinate_types, only: coordinate_t, is_angle, is_sum
-  use coordinates, only: coordinate_rate, coordinate_value, slider_coordinate
+  use coordinate_types, only: coordinate_t, is_sum
+  use coordinates, only: coordinate_rate, coordinate_value, slider_coordinate, turns => is_turning
   use group_equations, only: line_axis, line_offset
   use kinds, only: wp
   use linkages, only: cross, linkage_t
@@ -173,14 +173,8 @@ contains
     logical :: is_turning
 
     is_turning = quantity%kind == angle_of_body
-    if (quantity%kind /= value_of_coordinate) return
-    associate (coordinate => linkage%coordinates(quantity%number))
-      if (coordinate%kind == is_sum) then
-        is_turning = linkage%coordinates(coordinate%term(1))%kind == is_angle
-      else
-        is_turning = coordinate%kind == is_angle
-      end if
-    end associate
+    if (quantity%kind == value_of_coordinate) is_turning = turns(linkage, &
+      linkage%coordinates(quantity%number))
   end function is_turning
 
   !> The room that the terms of any of the quantities need.

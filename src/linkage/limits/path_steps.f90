@@ -7,7 +7,7 @@ module path_steps
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use linkages, only: linkage_t, normal_to
   use pose_types, only: pose_t
-  use poses, only: dead_point_sine, place_groups
+  use poses, only: dead_point_sine, place_groups, still
   implicit none (type, external)
   private
 
@@ -19,9 +19,6 @@ module path_steps
     type(pose_t) :: pose          !! pins from `reference_point`
     type(kinematic_coefficients_t) :: coefficients
   end type station_t
-
-  !> In time, places nearer to each other than this share of the longest link are one.
-  real(wp), parameter :: still = 1.0e-9_wp
 
 contains
 

@@ -346,28 +346,7 @@ contains
   end function spring_scale
 
   !> Sum of the magnitudes of the works of an effort of 1 along a coordinate.
-  pure function work_scale(linkage, pose, per, coordinate) result(scale)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: per
-    type(coordinate_t), intent(in) :: coordinate
-    real(wp) :: scale
-
-    integer :: i
-
-    if (coordinate%kind /= is_sum) then
-      scale = simple_scale(linkage, pose, per, coordinate)
-      return
-    end if
-    scale = 0.0_wp
-    do i = 1, size(coordinate%term)
-      scale = scale + abs(coordinate%weight(i))*simple_scale(linkage, pose, per, &
-        linkage%coordinates(coordinate%term(i)))
-    end do
-  end function work_scale
-
-  !> The same along one that is no sum.
-  pure function simple_scale(linkage, pose, per, coordinate) result(scale)
+  pure recursive function work_scale(linkage, pose, per, coordinate) result(scale)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(kinematic_coefficients_t), intent(in) :: per
@@ -375,17 +354,24 @@ contains
     real(wp) :: scale
 
     type(wrench_t) :: wrench(2)
-    integer :: k
+    integer :: i
 
-    wrench = coordinate_wrenches(linkage, pose, coordinate)
     scale = 0.0_wp
-    do k = 1, 2
-      associate (at => coordinate%at(k))
-        scale = scale + norm2(wrench(k)%force)*norm2(terminal_velocity(linkage, pose, per, at))
-        if (at%body > 0) scale = scale + abs(wrench(k)%couple*per%turn(at%body))
+    if (coordinate%kind == is_sum) then
+      do i = 1, size(coordinate%term)
+        scale = scale + abs(coordinate%weight(i))*work_scale(linkage, pose, per, &
+          linkage%coordinates(coordinate%term(i)))
+      end do
+      return
+    end if
+    wrench = coordinate_wrenches(linkage, pose, coordinate)
+    do i = 1, 2
+      associate (at => coordinate%at(i))
+        scale = scale + norm2(wrench(i)%force)*norm2(terminal_velocity(linkage, pose, per, at))
+        if (at%body > 0) scale = scale + abs(wrench(i)%couple*per%turn(at%body))
       end associate
     end do
-  end function simple_scale
+  end function work_scale
 
   !> Generalised force of loads: their virtual work per change of the coordinate for which the
   !! coefficients stand [N m] or [N].
@@ -486,7 +472,7 @@ contains
   end function resistance
 
   !> Adds what an effort along a coordinate puts on pins and bodies.
-  pure subroutine add_effort(linkage, pose, coordinate, effort, body_load, pin_load)
+  pure recursive subroutine add_effort(linkage, pose, coordinate, effort, body_load, pin_load)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(coordinate_t), intent(in) :: coordinate
@@ -494,41 +480,27 @@ contains
     type(load_t), intent(inout) :: body_load(:)
     real(wp), intent(inout) :: pin_load(:, :)
 
+    type(wrench_t) :: wrench(2)
     integer :: i
 
-    if (coordinate%kind /= is_sum) then
-      call add_simple_effort(linkage, pose, coordinate, effort, body_load, pin_load)
+    if (coordinate%kind == is_sum) then
+      do i = 1, size(coordinate%term)
+        call add_effort(linkage, pose, linkage%coordinates(coordinate%term(i)), &
+          coordinate%weight(i)*effort, body_load, pin_load)
+      end do
       return
     end if
-    do i = 1, size(coordinate%term)
-      call add_simple_effort(linkage, pose, linkage%coordinates(coordinate%term(i)), &
-        coordinate%weight(i)*effort, body_load, pin_load)
-    end do
-  end subroutine add_effort
-
-  !> The same along one that is no sum.
-  pure subroutine add_simple_effort(linkage, pose, coordinate, effort, body_load, pin_load)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(coordinate_t), intent(in) :: coordinate
-    real(wp), intent(in) :: effort
-    type(load_t), intent(inout) :: body_load(:)
-    real(wp), intent(inout) :: pin_load(:, :)
-
-    type(wrench_t) :: wrench(2)
-    integer :: k
-
     wrench = coordinate_wrenches(linkage, pose, coordinate)
-    do k = 1, 2
-      associate (at => coordinate%at(k))
+    do i = 1, 2
+      associate (at => coordinate%at(i))
         if (at%body == 0 .and. at%pin == 0) cycle
-        if (coordinate%kind /= is_angle) call add_force(pose, at, effort*wrench(k)%force, &
+        if (coordinate%kind /= is_angle) call add_force(pose, at, effort*wrench(i)%force, &
           body_load, pin_load)
         if (at%body > 0) body_load(at%body)%moment = body_load(at%body)%moment + &
-          effort*wrench(k)%couple
+          effort*wrench(i)%couple
       end associate
     end do
-  end subroutine add_simple_effort
+  end subroutine add_effort
 
   !> Adds a force at a place.
   pure subroutine add_force(pose, at, force, body_load, pin_load)

@@ -32,46 +32,32 @@ contains
   end function pulls_on_ground
 
   !> The same of an effort along a coordinate.
-  pure function on_ground(linkage, pose, coordinate, effort) result(total)
+  pure recursive function on_ground(linkage, pose, coordinate, effort) result(total)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(coordinate_t), intent(in) :: coordinate
     real(wp), intent(in) :: effort !! [N] or [N m]
     real(wp) :: total(3)
 
+    type(wrench_t) :: wrench(2)
     integer :: i
 
-    if (coordinate%kind /= is_sum) then
-      total = simple_on_ground(linkage, pose, coordinate, effort)
+    total = 0.0_wp
+    if (coordinate%kind == is_sum) then
+      do i = 1, size(coordinate%term)
+        total = total + on_ground(linkage, pose, linkage%coordinates(coordinate%term(i)), &
+          coordinate%weight(i)*effort)
+      end do
       return
     end if
-    total = 0.0_wp
-    do i = 1, size(coordinate%term)
-      total = total + simple_on_ground(linkage, pose, linkage%coordinates(coordinate%term(i)), &
-        coordinate%weight(i)*effort)
-    end do
-  end function on_ground
-
-  !> The same along one that is no sum.
-  pure function simple_on_ground(linkage, pose, coordinate, effort) result(total)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(coordinate_t), intent(in) :: coordinate
-    real(wp), intent(in) :: effort
-    real(wp) :: total(3)
-
-    type(wrench_t) :: wrench(2)
-    integer :: k
-
     wrench = coordinate_wrenches(linkage, pose, coordinate)
-    total = 0.0_wp
-    do k = 1, 2
-      if (.not. is_fixed(linkage, coordinate%at(k))) cycle
-      associate (force => effort*wrench(k)%force)
-        total = total + [force, effort*wrench(k)%couple + cross(wrench(k)%place + pose%origin - &
+    do i = 1, 2
+      if (.not. is_fixed(linkage, coordinate%at(i))) cycle
+      associate (force => effort*wrench(i)%force)
+        total = total + [force, effort*wrench(i)%couple + cross(wrench(i)%place + pose%origin - &
           reference_point(linkage), force)]
       end associate
     end do
-  end function simple_on_ground
+  end function on_ground
 
 end module ground_loads

@@ -10,14 +10,15 @@ module pulls
   use constants, only: degree
   use contacts, only: contact_energy, contact_ramp, contact_slope
   use coordinate_types, only: is_angle, is_sum
-  use coordinates, only: coordinate_value
+  use coordinates, only: coordinate_rate, coordinate_value
   use kinds, only: wp
   use linkages, only: linkage_t
-  use pose_types, only: pose_t
+  use pose_types, only: kinematic_coefficients_t, pose_t
   implicit none (type, external)
   private
 
-  public :: deflection, standing_pull, moving_pull, pull_energy, pull_scale, counts_turns, jumps
+  public :: deflection, standing_pull, moving_pull, contact_depth, pull_energy, pull_scale, &
+    counts_turns, jumps
 
   !> Largest angle between a torsional spring and its rest; its sign changes at a half turn [rad].
   real(wp), parameter :: most_deflection = 170.0_wp*degree
@@ -105,6 +106,18 @@ contains
     pull = load%side*load%stiffness*(contact_ramp(depth + deeper, load%contact) - &
       contact_ramp(depth, load%contact))
   end function moving_pull
+
+  !> How deep what acts on one side of its rest is pressed, and the rate of this; below 0 before.
+  pure function contact_depth(linkage, pose, now, load) result(depth)
+    type(linkage_t), intent(in) :: linkage            !! of the coordinate
+    type(pose_t), intent(in) :: pose                  !! positions and directions
+    type(kinematic_coefficients_t), intent(in) :: now !! velocities, or coefficients
+    type(applied_load_t), intent(in) :: load          !! of one side
+    real(wp) :: depth(2)                              !! [m] or [rad], and per unit of the motion
+
+    depth = load%side*[deflection(linkage, pose, load), coordinate_rate(linkage, pose, now, &
+      load%along)]
+  end function contact_depth
 
   !> Potential energy of a standing pull, 0 unloaded [J].
   pure function pull_energy(linkage, pose, load) result(energy)

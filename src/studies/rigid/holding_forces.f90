@@ -2,12 +2,11 @@
 module holding_forces
   use applied_loads, only: spring_scale
   use constants, only: degree
-  use coordinates, only: coordinate_rate
   use kinds, only: wp
   use lagrange, only: find_lagrange, lagrange_t
   use linkages, only: drive_of_angle, linkage_t
   use positions, only: find_state, state_t
-  use pulls, only: deflection
+  use pulls, only: contact_depth
   use rigid_bodies, only: rigid_body_t
   implicit none (type, external)
   private
@@ -104,7 +103,7 @@ contains
     real(wp) :: distance          !! huge without contacts
 
     type(state_t) :: state
-    real(wp) :: depth, rate
+    real(wp) :: depth(2)
     integer :: i
 
     distance = huge(distance)
@@ -115,11 +114,10 @@ contains
     do i = 1, size(self%linkage%loads)
       associate (load => self%linkage%loads(i))
         if (load%side == 0) cycle
-        depth = load%side*deflection(self%linkage, state%pose, load)
-        rate = abs(coordinate_rate(self%linkage, state%pose, state%coefficients, load%along))
-        if (self%linkage%drives(1)%kind == drive_of_angle) rate = rate*degree
-        depth = min(abs(depth), abs(depth - load%contact))
-        if (rate > 0.0_wp) distance = min(distance, depth/rate)
+        depth = contact_depth(self%linkage, state%pose, state%coefficients, load)
+        if (self%linkage%drives(1)%kind == drive_of_angle) depth(2) = depth(2)*degree
+        if (abs(depth(2)) > 0.0_wp) distance = min(distance, min(abs(depth(1)), abs(depth(1) - &
+          load%contact))/abs(depth(2)))
       end associate
     end do
   end function smooth_distance
