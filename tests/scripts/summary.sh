@@ -39,9 +39,11 @@ for table in summary["tables"]:
     rows = sum(1 for line in lines if line and not line.startswith("#"))
     failed = sum(1 for line in lines if line.startswith("# failed "))
     assert (table["rows"], table["failed_rows"]) == (rows, failed), table["file"]
-    marked = [line[1:].split() for line in lines if line.startswith("#") and not line.startswith("# failed ")]
-    assert [column["name"] for column in table["columns"]] == marked[-2], table["file"]
-    assert [column["unit"] or "-" for column in table["columns"]] == marked[-1], table["file"]
+    # The head; remarks of later variants stand behind it.
+    first = next((i for i, line in enumerate(lines) if not line.startswith("#") or line.startswith("# failed ")), len(lines))
+    names, units = (line[1:].split() for line in lines[first - 2:first])
+    assert [column["name"] for column in table["columns"]] == names, table["file"]
+    assert [column["unit"] or "-" for column in table["columns"]] == units, table["file"]
     total += rows
     failed_total += failed
 counts = summary["counts"]
