@@ -163,22 +163,24 @@ class Place:
                 turned = -float(slider["inertia"]) * s.a[model.bodies[slider["guide"]].angle]
                 self.add(("pin", slider["pin"]), self.where(slider["pin"]), 0.0, 0.0, turned)
         for load in model.applied:
-            inner = load.keyword in ("spring", "damper")
-            effects = load.effects(s)
-            if inner and len(effects) == 1:
-                self.add(("ground",), (0.0, 0.0), 0.0, 0.0, -effects[0][1])
-            for effect in effects:
+            # What acts along a coordinate stands on what it moves against: what bodies do not give each other the ground does.
+            inner = load.keyword in ("spring", "damper", "stop")
+            for effect in load.effects(s):
                 if len(effect) == 2:
                     self.add(("body", effect[0].name), self.about(("body", effect[0].name)), 0.0, 0.0, effect[1])
+                    if inner:
+                        self.add(("ground",), (0.0, 0.0), 0.0, 0.0, -effect[1])
                     continue
                 place, fx, fy = effect
+                if place[0] == "pin" and place[1] in model.ground:
+                    continue
+                if inner:
+                    self.add(("ground",), load.where(s, place)[0], -fx, -fy)
                 place = self.named(place)
                 if place[0] != "pin":
                     self.add(("body", place[0].name), load.where(s, place)[0], fx, fy)
-                elif place[1] not in model.ground:
+                else:
                     self.on_pin(place[1], fx, fy)
-                elif inner:
-                    self.add(("ground",), self.where(place[1]), fx, fy)
 
     def check(self):
         """The largest share that is left; raises Wrong."""
