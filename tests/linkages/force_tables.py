@@ -262,17 +262,31 @@ def of_case(case):
     return with_reports([line for line in case.text(5).splitlines() if not line.startswith("REPORT")])
 
 
+def spans_of_laws(cards):
+    """First and last place of the first piece of every law, and least and greatest of those by tables, which count under both names."""
+    spans = {}
+    tables = {words[1]: words[5::2] for words in cards if words[0] == "TABLE"}
+    for words in cards:
+        if words[0] == "LAW" and words[1] not in spans:
+            keys = dict(word.split("=") for word in words if "=" in word)
+            if "table" in keys:
+                places = [float(word) for word in tables[keys["table"]]]
+                spans[words[1]] = spans[keys["table"]] = min(places), max(places)
+            else:
+                spans[words[1]] = float(keys["from"].rstrip("deg")), float(keys["to"].rstrip("deg"))
+    return spans
+
+
 def of_input(program, path, folder):
-    """A deck of inputs/ as the program understands it, rigid, with its positions or some of its law, at a speed; None: a study, or
-    the elastic reports of a structure."""
+    """A deck of inputs/ as the program understands it, rigid, with its positions or some of the law of its first drive, the others at
+    rest, at a speed; None: a study, or the elastic reports of a structure."""
     run(program, path, folder)
     with open(os.path.join(folder, os.path.splitext(os.path.basename(path))[0], "echo.deck"), encoding="utf-8") as file:
         text = re.sub(r"&[ \t]*(?:[!#].*)?\n", " ", file.read())
     lines, cranks, speeds, linear = [], ["CRANK 20 50 80"], ["SPEED 3 alpha=2"], False
-    for line in text.splitlines():
-        words = re.split(r"[!#]", line)[0].split()
-        if not words:
-            continue
+    cards = [words for words in (re.split(r"[!#]", line)[0].split() for line in text.splitlines()) if words]
+    spans = spans_of_laws(cards)
+    for words in cards:
         keyword = words[0].upper()
         if keyword in ("VARY", "SET"):
             return None
@@ -280,11 +294,8 @@ def of_input(program, path, folder):
             cranks = [" ".join(words)]
         elif keyword == "SPEED":
             speeds = [" ".join(words)]
-        elif keyword == "LAW":
-            ends = [word.split("=")[1] for word in words if word.startswith(("from=", "to="))]
-            if len(ends) == 2:
-                first, last = (float(end.rstrip("deg")) for end in ends)
-                cranks = [f"CRANK {0.9 * first + 0.1 * last!r} {0.5 * first + 0.5 * last!r} {0.1 * first + 0.9 * last!r}"]
+        elif keyword == "TABLE" and words[1] in spans:
+            continue
         elif keyword not in DROPPED:
             if keyword == "LINK":
                 keys = {word.split("=")[0] for word in words if "=" in word}
@@ -297,14 +308,20 @@ def of_input(program, path, folder):
                 if not keys & {"center", "material"} and len([word for word in words if "=" not in word]) > 4:
                     words.append("center=0.01m,0.02m")
             if keyword == "DRIVE":
+                law = next((word[4:] for word in words if word.startswith("law=")), None)
                 words = [word for word in words if not word.startswith("law=") and word.lower() != "free"]
-                linear = linear or (len(lines) > 0 and not any(line.startswith("DRIVE") for line in lines)
-                                    and len([word for word in words[1:] if "=" not in word]) == 2)
+                is_first = not any(line.startswith("DRIVE") for line in lines)
+                if law in spans and is_first:
+                    first, last = spans[law]
+                    cranks = [f"CRANK {0.9 * first + 0.1 * last!r} {0.5 * first + 0.5 * last!r} {0.1 * first + 0.9 * last!r}"]
+                elif law in spans:
+                    words.append(f"at={spans[law][0]!r}")
+                linear = linear or is_first and len([word for word in words[1:] if "=" not in word]) == 2
             lines.append(" ".join(words))
     if not any(line.startswith("DRIVE") for line in lines):
         return None                                               # a structure
     if linear and speeds == ["SPEED 3 alpha=2"]:
-        speeds = ["SPEED 0.02m/s"]
+        speeds = ["SPEED 0.02 m/s"]
     return with_reports(lines + cranks + speeds + ["INERTIA distributed"])
 
 
