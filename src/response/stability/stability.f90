@@ -18,6 +18,7 @@ module stability
   use order_transfer, only: transferred_halves
   use response_levels, only: damping_of, level_slot_t, level_t, need_level, sample_numbers
   use response_types, only: no_damping
+  use sorting, only: ascending_order
   use stability_types, only: exponent_t, speed_stability_t, stability_request_t, &
     stability_t, stable, undecided, unstable_combination, unstable_flip, unstable_fold
   use structures, only: structure_t
@@ -55,6 +56,9 @@ module stability
 
   !> Larger errors, which leave no digit.
   real(wp), parameter :: no_digits = 0.1_wp
+
+  !> Frequencies of shapes of slow motions are not known better than by this share.
+  real(wp), parameter :: least_doubt = 1.0e-2_wp
 
   !> With damping, multipliers that have met are no farther from each other than this.
   real(wp), parameter :: met = 0.05_wp
@@ -161,19 +165,23 @@ contains
       call find_spectrum(level, plan, slow_number(level%grid, request%modes), speed, spectrum, &
         here%error)
       if (allocated(here%error)) exit attempt
-      wanted = wanted_modes(spectrum, request%modes)
+      wanted = modes_of_numbers(spectrum, request%modes)
       call find_means(level, spectrum%motion%number, speed, spectrum, wanted, mean, here%error)
-      if (allocated(here%error)) exit attempt
-      call refine_all(request, solved_to(1), level, plan, speed, spectrum, wanted, modes, &
-        here%error)
       if (allocated(here%error)) exit attempt
       call find_spectrum(above, above_plan, slow, speed, above_spectrum, here%error)
       if (allocated(here%error)) exit attempt
+      wanted = candidates(spectrum, above_spectrum, size(wanted))
       above_wanted = matched(spectrum, wanted, above_spectrum)
+      call refine_all(request, solved_to(1), level, plan, speed, spectrum, wanted, modes, &
+        here%error)
+      call add_work(level%grid, sum(modes%applications))
+      if (allocated(here%error)) exit attempt
       call transfer
       call refine_all(request, solved_to(2), above, above_plan, speed, above_spectrum, &
         above_wanted, above_modes, here%error, known)
+      call add_work(above%grid, sum(above_modes%applications))
       if (allocated(here%error)) exit attempt
+      call choose
       here%order = above%order
       here%samples = above%grid%samples
       here%slow = slow
@@ -181,8 +189,6 @@ contains
     end block attempt
     call close_fourier(above_plan)
     call close_fourier(plan)
-    if (allocated(modes)) call add_work(level%grid, sum(modes%applications))
-    if (allocated(above_modes)) call add_work(above%grid, sum(above_modes%applications))
     here%applications = here%applications + found%applications
     call settle
 
@@ -198,6 +204,20 @@ contains
           known(i)%motion)
       end do
     end subroutine transfer
+
+    !> Numbers the candidates by the frequencies of their shapes in the whole equation, and leaves
+    !! those that are wanted.
+    subroutine choose
+      integer, allocatable :: order(:)
+
+      order = ascending_order(above_modes%frequency)
+      call renumber(spectrum, order)
+      order = order(:size(mean))
+      wanted = wanted(order)
+      above_wanted = above_wanted(order)
+      modes = modes(order)
+      above_modes = above_modes(order)
+    end subroutine choose
 
     !> Values, errors and verdicts.
     subroutine judge
@@ -390,17 +410,48 @@ contains
     same = min(abs(one), abs(other)) > certain .and. one*other > 0.0_wp
   end function same_side
 
-  !> Numbers of the modes of the slowest vibrations, in their order.
-  pure function wanted_modes(spectrum, modes) result(wanted)
+  !> The modes of the slowest vibrations, in the order of their numbers.
+  pure function modes_of_numbers(spectrum, most) result(modes)
     type(turn_spectrum_t), intent(in) :: spectrum
-    integer, intent(in) :: modes
-    integer, allocatable :: wanted(:)
+    integer, intent(in) :: most
+    integer, allocatable :: modes(:)
 
     integer :: i
 
-    wanted = [(growing_mode(spectrum%mode, spectrum%number, i), i=1, min(modes, &
+    modes = [(growing_mode(spectrum%mode, spectrum%number, i), i=1, min(most, &
       maxval(spectrum%number)))]
-  end function wanted_modes
+  end function modes_of_numbers
+
+  !> The modes that may be the slowest ones, in the order of their numbers: a multiplier that by the
+  !! slow motion alone meets that of a fast vibration gets of its shape, and of its frequency. That
+  !! of two levels differs then.
+  pure function candidates(spectrum, above, wanted) result(modes)
+    type(turn_spectrum_t), intent(in) :: spectrum, above
+    integer, intent(in) :: wanted !! modes
+    integer, allocatable :: modes(:)
+
+    real(wp), allocatable :: frequency(:), doubt(:)
+
+    modes = modes_of_numbers(spectrum, size(above%mode))
+    frequency = spectrum%mode(modes)%shape_frequency
+    doubt = max(least_doubt*frequency, abs(above%mode(matched(spectrum, modes, above))% &
+      shape_frequency - frequency))
+    modes = modes(:findloc(frequency - doubt <= maxval(frequency(:wanted) + doubt(:wanted)), &
+      .true., dim=1, back=.true.))
+  end function candidates
+
+  !> Gives modes, with the real ones that are of the same vibration, the numbers 1, 2, ….
+  pure subroutine renumber(spectrum, number)
+    type(turn_spectrum_t), intent(inout) :: spectrum
+    integer, intent(in) :: number(:) !! that they have: 1, 2, … in their new order
+
+    integer :: before(size(spectrum%number)), i
+
+    before = spectrum%number
+    do i = 1, size(number)
+      where (before == number(i)) spectrum%number = i
+    end do
+  end subroutine renumber
 
   !> Modes of the whole equation.
   !!
