@@ -206,11 +206,12 @@ contains
     end subroutine transfer
 
     !> Numbers the candidates by the frequencies of their shapes in the whole equation, and leaves
-    !! those that are wanted.
+    !! those that are wanted. Of two real multipliers only the one is known there.
     subroutine choose
       integer, allocatable :: order(:)
 
-      order = ascending_order(above_modes%frequency)
+      order = ascending_order(frequency_of(above_spectrum, above_wanted)*above_modes%frequency/ &
+        above_spectrum%mode(above_wanted)%shape_frequency)
       call renumber(spectrum, order)
       order = order(:size(mean))
       wanted = wanted(order)
@@ -433,12 +434,27 @@ contains
     real(wp), allocatable :: frequency(:), doubt(:)
 
     modes = modes_of_numbers(spectrum, size(above%mode))
-    frequency = spectrum%mode(modes)%shape_frequency
-    doubt = max(least_doubt*frequency, abs(above%mode(matched(spectrum, modes, above))% &
-      shape_frequency - frequency))
+    frequency = frequency_of(spectrum, modes)
+    doubt = max(least_doubt*frequency, abs(frequency_of(above, matched(spectrum, modes, above)) - &
+      frequency))
     modes = modes(:findloc(frequency - doubt <= maxval(frequency(:wanted) + doubt(:wanted)), &
       .true., dim=1, back=.true.))
   end function candidates
+
+  !> Frequencies of shapes by which vibrations are numbered: of two real multipliers the smaller.
+  pure function frequency_of(spectrum, modes) result(frequency)
+    type(turn_spectrum_t), intent(in) :: spectrum
+    integer, intent(in) :: modes(:)
+    real(wp) :: frequency(size(modes))
+
+    integer :: i
+
+    frequency = spectrum%mode(modes)%shape_frequency
+    do i = 1, size(modes)
+      if (spectrum%number(modes(i)) > 0) frequency(i) = minval(spectrum%mode%shape_frequency, &
+        mask=spectrum%number == spectrum%number(modes(i)))
+    end do
+  end function frequency_of
 
   !> Gives modes, with the real ones that are of the same vibration, the numbers 1, 2, ….
   pure subroutine renumber(spectrum, number)
@@ -477,7 +493,8 @@ contains
       "nothing is known of the exponent of a vibration: the equation has none in its motions")
   end subroutine refine_all
 
-  !> The modes of another level with the exponents of those wanted, each once.
+  !> The modes of another level with the exponents of those wanted, each once; of two real
+  !! multipliers the one that grows.
   pure function matched(spectrum, wanted, other) result(found)
     type(turn_spectrum_t), intent(in) :: spectrum, other
     integer, intent(in) :: wanted(:)
@@ -486,7 +503,9 @@ contains
     logical :: free(size(other%mode))
     integer :: i
 
-    free = .true.
+    free = .false.
+    free(modes_of_numbers(other, size(other%mode))) = .true.
+    if (count(free) < size(wanted)) free = .true.
     do i = 1, size(wanted)
       found(i) = minloc(abs(other%mode%exponent - spectrum%mode(wanted(i))%exponent), dim=1, &
         mask=free)
