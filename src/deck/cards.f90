@@ -20,8 +20,9 @@ module cards
   type :: entry_t
     type(token_t) :: key                   !! before the equals sign
     type(token_t) :: value                 !! after it; empty text: missing, reported as an error
-    type(token_t), allocatable :: items(:) !! (items) of a list that contains a `$name`, each with
-                                           !! its own place; else not allocated
+    type(token_t), allocatable :: items(:) !! (items) of a list that contains a `$name`, or parts of
+                                           !! such a formula, each with its own place; else not
+                                           !! allocated
   end type entry_t
 
   type :: card_t

@@ -18,6 +18,7 @@ module linkage_builder
     linkage_t
   use models, only: is_four_bar, is_pin, model_t, report_number, rule_at_change_points, &
     runs_in_time
+  use motion_programs, only: program_period
   use name_index, only: find_name, name_index_t, new_name_index
   use plan_problems, only: plan_problem_t
   use plan_sides, only: side_t, undecided_t
@@ -479,6 +480,7 @@ contains
     type(linkage_t), intent(inout) :: linkage
 
     real(wp), parameter :: shortest = 1.0e-6_wp !! [s]
+    real(wp) :: range(2)
     integer :: i
 
     linkage%runs_in_time = .true.
@@ -491,11 +493,9 @@ contains
     ! Ratings are those of a whole period.
     if (report_number(model, "sizing") > 0) then
       do i = 1, size(linkage%drives)
-        if (.not. linkage%drives(i)%has_law .or. allocated(linkage%drives(i)%law%segments)) cycle
-        associate (spline => linkage%drives(i)%law%spline)
-          if (spline%is_periodic) linkage%times = [min(linkage%times(1), spline%x(1)), &
-            max(linkage%times(2), spline%x(size(spline%x)))]
-        end associate
+        range = program_period(linkage%drives(i)%law)
+        if (range(2) > range(1)) linkage%times = [min(linkage%times(1), range(1)), &
+          max(linkage%times(2), range(2))]
       end do
     end if
     linkage%times(2) = max(linkage%times(2), linkage%times(1) + shortest)

@@ -181,10 +181,10 @@ module card_table
       help="of the crank; alpha: acceleration at all of them; ramp: time up to them from rest"), &
     card_kind_t("LAW", least=1, most=2, &
       pattern="LAW name kind to= start= stop= [from=], or LAW name table= "// &
-      "[ends=free|rest|periodic]", &
+      "[ends=free|rest|periodic], or LAW name formula= [period=]", &
       choices="ramp parabolic harmonic cycloidal modified_sine modified_trapezoid "// &
       "polynomial_345 polynomial_4567", &
-      help="the motion of the first drive: a segment of it, or a table of positions over time"), &
+      help="the motion of a drive: a segment of it, a table of positions, or a formula in t"), &
     card_kind_t("TIME", is_single=.true., is_list=.true., least=1, most=many, &
       pattern="TIME a to b step s, or a list of instants", &
       help="the instants of tables, in place of CRANK and SPEED, if the drive has a law"), &

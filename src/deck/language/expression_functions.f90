@@ -1,9 +1,9 @@
 !> Functions in the arithmetic of SET.
 !!
-!! Sines of degrees are exact at multiples of 30° and 90°; an inverse function gives the whole
-!! number of degrees that has its value: asin(0.5) is 30deg, which π would round.
+!! An inverse function gives the whole number of degrees that has its value: asin(0.5) is 30deg.
 module expression_functions
   use constants, only: degree
+  use degree_functions, only: cosine_of_degrees, sine_of_degrees
   use kinds, only: wp
   use quantities, only: kind_text, match_angles, quantity_t
   use text, only: string_t, word_list
@@ -98,8 +98,8 @@ contains
       s = sin(found%value)
       c = cos(found%value)
     else
-      s = sine(found%value)
-      c = cosine(found%value)
+      s = sine_of_degrees(found%value)
+      c = cosine_of_degrees(found%value)
     end if
     found%dimension = dimension_none
     if (name == "sin") found%value = s
@@ -132,8 +132,10 @@ contains
       if (name == "asin") found%value = asin(x)/degree
       if (name == "acos") found%value = acos(x)/degree
       nearest = anint(found%value)
-      if (name == "asin" .and. .not. abs(sine(nearest) - x) > 0.0_wp) found%value = nearest
-      if (name == "acos" .and. .not. abs(cosine(nearest) - x) > 0.0_wp) found%value = nearest
+      if (name == "asin" .and. .not. abs(sine_of_degrees(nearest) - x) > 0.0_wp) &
+        found%value = nearest
+      if (name == "acos" .and. .not. abs(cosine_of_degrees(nearest) - x) > 0.0_wp) &
+        found%value = nearest
     end if
   end subroutine apply_inverse
 
@@ -144,63 +146,8 @@ contains
 
     degrees = atan2(y, x)/degree
     nearest = anint(degrees)
-    if (.not. abs(y*cosine(nearest) - x*sine(nearest)) > 0.0_wp) degrees = nearest
+    if (.not. abs(y*cosine_of_degrees(nearest) - x*sine_of_degrees(nearest)) > 0.0_wp) &
+      degrees = nearest
   end function angle_of
-
-  !> Sine of degrees.
-  pure function sine(degrees) result(value)
-    real(wp), intent(in) :: degrees
-    real(wp) :: value, a
-
-    a = mod(abs(degrees), 360.0_wp)
-    if (a > 180.0_wp) then
-      value = -quarter_sine(min(a - 180.0_wp, 360.0_wp - a))
-    else
-      value = quarter_sine(min(a, 180.0_wp - a))
-    end if
-    if (degrees < 0.0_wp) value = -value
-  end function sine
-
-  !> Cosine of degrees.
-  pure function cosine(degrees) result(value)
-    real(wp), intent(in) :: degrees
-    real(wp) :: value, a
-
-    a = mod(abs(degrees), 360.0_wp)
-    if (a > 180.0_wp) a = 360.0_wp - a
-    if (a > 90.0_wp) then
-      value = -quarter_cosine(180.0_wp - a)
-    else
-      value = quarter_cosine(a)
-    end if
-  end function cosine
-
-  !> Sine of degrees from 0 to 90. The differences are without rounding where they are small.
-  pure function quarter_sine(a) result(value)
-    real(wp), intent(in) :: a
-    real(wp) :: value
-
-    if (a > 45.0_wp) then
-      value = cos((90.0_wp - a)*degree)
-    else if (abs(a - 30.0_wp) > 0.0_wp) then
-      value = sin(a*degree)
-    else
-      value = 0.5_wp
-    end if
-  end function quarter_sine
-
-  !> Cosine of degrees from 0 to 90. That of 45 is its sine.
-  pure function quarter_cosine(a) result(value)
-    real(wp), intent(in) :: a
-    real(wp) :: value
-
-    if (a < 45.0_wp) then
-      value = cos(a*degree)
-    else if (abs(a - 60.0_wp) > 0.0_wp) then
-      value = sin((90.0_wp - a)*degree)
-    else
-      value = 0.5_wp
-    end if
-  end function quarter_cosine
 
 end module expression_functions

@@ -1,18 +1,23 @@
-!> Arithmetic in SET, with units: `SET rod $track - 2*$arm*sin(10deg)`.
+!> Arithmetic in SET, with units: `SET rod $track - 2*$arm*sin(10deg)`; and in the time, for laws of
+!! drives: `20deg*sin(2*pi*t/3s)`.
 !!
 !!   sum     = product {(+|-) product}
 !!   product = signed {(*|/) signed}
 !!   signed  = [+|-] atom [** signed]
-!!   atom    = number[unit] | $name | pi | function(sum[, sum]) | (sum)
+!!   atom    = number[unit] | $name | pi | t | function(sum[, sum]) | (sum)
 !!
 !! A bare number is a pure number. A unit follows its number without a blank; it is the longest text
 !! that is one, and that no letter, digit or bracket follows: 2mm*sin(10deg) is no product of mm and
 !! s. Names hold minus signs, so that `$track-2` is a name.
+!!
+!! What depends on the time has no value while it is read: it is noted as a step of a formula, and
+!! its kind is found with the value 1. A pure number that depends on the time is an angle in radians
+!! where an angle is wanted, as in sin(ωt).
 module expressions
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_flag, &
     ieee_set_halting_mode, ieee_usual
   use card_reader, only: unit_apart
-  use constants, only: pi
+  use constants, only: degree, pi
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_input, error_of_writing, error_t
   use expression_functions, only: apply_function, count_values, function_names
@@ -22,12 +27,15 @@ module expressions
   use spelling, only: suggestion
   use text, only: is_continuation_byte, joined
   use text_buffer, only: append_text, buffer_text, text_buffer_t
+  use time_formulas, only: add_step, function_step, step_constant, step_difference, step_power, &
+    step_product, step_quotient, step_scaled, step_sum, step_time, step_whole_power, time_formula_t
   use tokens, only: is_name, name_length, token_part, token_t
-  use units, only: dimension_none, read_unit, unit_system_t, unit_t
+  use units, only: dimension_angle, dimension_none, dimension_time, read_unit, unit_system_t, &
+    unit_t
   implicit none (type, external)
   private
 
-  public :: operand_t, is_expression, find_names, evaluate
+  public :: operand_t, is_expression, find_names, split_at_names, evaluate, place_in
 
   !> What a `$name` in an expression stands for.
   type :: operand_t
@@ -39,8 +47,9 @@ module expressions
   !> An expression that is being read, and the first error in it.
   type :: reader_t
     character(len=:), allocatable :: text !! the words with a blank behind each
-    integer, allocatable :: start(:)      !! (words) bytes of the text at which they begin
     type(unit_system_t) :: system         !! units of bare numbers
+    logical :: has_time = .false.         !! `t` is the time
+    type(time_formula_t) :: formula       !! what depends on it
     integer :: at = 1                     !! byte that is read next; no blank but the last one
     integer :: level = 0                  !! of brackets, functions and powers
     integer :: names = 0                  !! number of `$name`s that have been read
@@ -155,6 +164,29 @@ contains
     end do
   end subroutine find_names
 
+  !> The parts of a word, each `$name` by itself.
+  pure function split_at_names(word) result(parts)
+    type(token_t), intent(in) :: word
+    type(token_t), allocatable :: parts(:)
+
+    integer :: count, first, last
+
+    allocate (parts(2*count_dollars(word%text) + 1))
+    count = 0
+    first = 1
+    do while (first <= len(word%text))
+      if (word%text(first:first) == "$") then
+        last = first + name_length(word%text(first + 1:))
+      else
+        last = first - 2 + index(word%text(first:)//"$", "$")
+      end if
+      count = count + 1
+      parts(count) = token_part(word, first, last)
+      first = last + 1
+    end do
+    parts = parts(:count)
+  end function split_at_names
+
   pure function count_dollars(text) result(count_of)
     character(len=*), intent(in) :: text
     integer :: count_of
@@ -168,18 +200,21 @@ contains
   !!
   !! Errors: words that are no expression; values of kinds that do not go together, or that a
   !! function does not take; a `$name` that is no number; a result that no double holds.
-  pure subroutine evaluate(words, operands, system, diagnostics, found, fine)
+  pure subroutine evaluate(words, operands, system, diagnostics, found, fine, formula)
     type(token_t), intent(in) :: words(:)             !! of the expression
     type(operand_t), intent(in) :: operands(:)        !! (names) of `find_names`
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added: one at most
     type(quantity_t), intent(out) :: found
     logical, intent(out) :: fine                      !! whether it has a value
+    type(time_formula_t), intent(out), optional :: formula !! of the value over time, in the unit of
+                                                      !! `found`: `t` is the time
 
     type(reader_t) :: reader
     logical :: halts(size(ieee_usual))
 
     call begin_reading(words, system, reader)
+    reader%has_time = present(formula)
     ! What is too large or undefined is an error of the user: no trap, even where traps are set.
     call ieee_get_halting_mode(ieee_usual, halts)
     call ieee_set_halting_mode(ieee_usual, .false.)
@@ -188,12 +223,16 @@ contains
     call ieee_set_flag(ieee_usual, .false.)
     call ieee_set_halting_mode(ieee_usual, halts)
     fine = reader%fault(1) == 0
+    if (fine .and. present(formula)) then
+      call need_step(reader, found)
+      formula = reader%formula
+    end if
     if (fine) return
     if (reader%unusable > 0) then
-      call add_error(diagnostics, place_of(words, reader), reader%message, &
+      call add_error(diagnostics, place_in(words, reader%fault), reader%message, &
         operands(reader%unusable)%word, "it is set here", kind=reader%kind)
     else
-      call add_error(diagnostics, place_of(words, reader), reader%message, kind=reader%kind)
+      call add_error(diagnostics, place_in(words, reader%fault), reader%message, kind=reader%kind)
     end if
   end subroutine evaluate
 
@@ -206,28 +245,30 @@ contains
     integer :: i
 
     reader%system = system
-    allocate (reader%start(size(words)))
     do i = 1, size(words)
-      reader%start(i) = buffer%length + 1
       call append_text(buffer, words(i)%text)
       call append_text(buffer, " ")
     end do
     reader%text = buffer_text(buffer)
   end subroutine begin_reading
 
-  !> The word, or the part of one, that is wrong.
-  pure function place_of(words, reader) result(place)
+  !> The word, or the part of one, that some bytes of the text are.
+  pure function place_in(words, bytes) result(place)
     type(token_t), intent(in) :: words(:)
-    type(reader_t), intent(in) :: reader
+    integer, intent(in) :: bytes(2) !! first and last one
     type(token_t) :: place
 
-    integer :: k, first, last
+    integer :: first, k, start
 
-    k = count(reader%start <= reader%fault(1))
-    first = reader%fault(1) - reader%start(k) + 1
-    last = min(reader%fault(2) - reader%start(k) + 1, len(words(k)%text))
-    place = token_part(words(k), first, last)
-  end function place_of
+    k = 1
+    start = 1
+    do while (k < size(words) .and. bytes(1) > start + len(words(k)%text))
+      start = start + len(words(k)%text) + 1
+      k = k + 1
+    end do
+    first = min(bytes(1) - start + 1, len(words(k)%text))
+    place = token_part(words(k), first, min(bytes(2) - start + 1, len(words(k)%text)))
+  end function place_in
 
   !> Notes the first error.
   pure subroutine complain(reader, first, last, message, kind)
@@ -305,6 +346,7 @@ contains
       call read_product(reader, operands, other)
       if (reader%fault(1) > 0) return
       call demand_alike(reader, at, at, sign, found, other)
+      call note(reader, merge(step_sum, step_difference, sign == "+"), [at, at], found, other)
       call match_angles(found, other)
       found%value = found%value + merge(other%value, -other%value, sign == "+")
       call demand_finite(reader, at, at, found)
@@ -331,6 +373,7 @@ contains
         call complain(reader, at, at, "a division by 0", kind=error_of_input)
         return
       end if
+      call note(reader, merge(step_quotient, step_product, divides), [at, at], found, other)
       call multiply(found, other, divides)
       call demand_finite(reader, at, at, found)
     end do
@@ -360,13 +403,21 @@ contains
         call advance(reader, 2)
         call read_signed(reader, operands, power)
         if (reader%fault(1) > 0) return
+        if (power%step > 0 .and. any(found%dimension /= 0)) call complain(reader, at, at + 1, &
+          "only a pure number has a power that changes in time; this is "//kind_text(found, &
+          reader%system))
+        call note_power(reader, [at, at + 1], found, power)
         call raise(found, power, reader%system, message)
         if (len(message) > 0) call complain(reader, at, at + 1, message, &
           kind=error_of_input)
         call demand_finite(reader, at, at + 1, found)
       end if
     end if
-    if (is_negative) found%value = -found%value
+    if (is_negative .and. found%step > 0) then
+      call scale_step(reader, -1.0_wp, found)
+    else if (is_negative) then
+      found%value = -found%value
+    end if
     reader%level = reader%level - 1
   end subroutine read_signed
 
@@ -516,6 +567,11 @@ contains
         function_names())//"; expected one of: "//joined(function_names()))
     else if (name == "pi") then
       found%value = pi
+    else if (name == "t" .and. reader%has_time) then
+      call take_time(reader, found)
+    else if (reader%has_time) then
+      call complain(reader, first, last, "'"//name//"' is no number"//unit_apart(name)// &
+        "; the time is t, and a name of a value begins with '$'")
     else
       call complain(reader, first, last, "'"//name//"' is no number"//unit_apart(name)// &
         "; a name of a value begins with '$'")
@@ -532,7 +588,7 @@ contains
 
     type(quantity_t) :: other
     character(len=:), allocatable :: message
-    integer :: opened, last
+    integer :: opened, last, step
 
     opened = reader%at
     last = first + len(name) - 1
@@ -551,7 +607,10 @@ contains
       trim(merge("two values", "one value ", count_values(name) == 2))//", and here is another one")
     call close_bracket(reader, opened)
     if (reader%fault(1) > 0) return
+    call note_function(reader, name, [first, last], found, other)
+    step = found%step
     call apply_function(name, other, reader%system, found, message)
+    found%step = step
     if (len(message) > 0) call complain(reader, first, last, message, kind=error_of_input)
     call demand_finite(reader, first, last, found)
   end subroutine read_function
@@ -568,12 +627,124 @@ contains
       kind_text(one, reader%system)//" and "//kind_text(other, reader%system))
   end subroutine demand_alike
 
-  !> Errors: no double holds a value.
+  !> The time, in the deck's unit.
+  pure subroutine take_time(reader, found)
+    type(reader_t), intent(inout) :: reader
+    type(quantity_t), intent(inout) :: found
+
+    type(unit_t) :: second
+    type(error_t), allocatable :: error
+    real(wp) :: factor
+
+    call read_unit("s", dimension_time, second, error)
+    found%value = 1.0_wp
+    call take_unit(second, reader%system, found)
+    factor = found%value
+    call append_step(reader, step_time, 0, 0, 0.0_wp, [0, 0], found)
+    if (abs(factor - 1.0_wp) > 0.0_wp) call scale_step(reader, factor, found)
+  end subroutine take_time
+
+  !> Appends a step to the formula, which gives a value from now on.
+  pure subroutine append_step(reader, operation, first, second, constant, bytes, found)
+    type(reader_t), intent(inout) :: reader
+    integer, intent(in) :: operation, first, second !! steps that it takes
+    real(wp), intent(in) :: constant
+    integer, intent(in) :: bytes(2)                 !! of the operator or function in the text
+    type(quantity_t), intent(inout) :: found
+
+    call add_step(reader%formula, operation, first, second, constant, bytes)
+    found%step = size(reader%formula%steps)
+    found%value = 1.0_wp
+  end subroutine append_step
+
+  pure subroutine scale_step(reader, factor, found)
+    type(reader_t), intent(inout) :: reader
+    real(wp), intent(in) :: factor
+    type(quantity_t), intent(inout) :: found
+
+    call append_step(reader, step_scaled, found%step, 0, factor, [0, 0], found)
+  end subroutine scale_step
+
+  !> Gives a constant a step.
+  pure subroutine need_step(reader, found)
+    type(reader_t), intent(inout) :: reader
+    type(quantity_t), intent(inout) :: found
+
+    if (found%step == 0) call append_step(reader, step_constant, 0, 0, found%value, [0, 0], found)
+  end subroutine need_step
+
+  !> Notes an operation on two values, if one depends on the time; the second in the unit of angles
+  !! of the first.
+  pure subroutine note(reader, operation, bytes, found, other)
+    type(reader_t), intent(inout) :: reader
+    integer, intent(in) :: operation, bytes(2)
+    type(quantity_t), intent(inout) :: found !! the first value; it gets the step of the result
+    type(quantity_t), intent(inout) :: other
+
+    if (reader%fault(1) > 0 .or. found%step + other%step == 0) return
+    call match_angles(found, other)
+    if (other%step > 0 .and. abs(other%value - 1.0_wp) > 0.0_wp) call scale_step(reader, &
+      other%value, other)
+    call need_step(reader, found)
+    call need_step(reader, other)
+    call append_step(reader, operation, found%step, other%step, 0.0_wp, bytes, found)
+  end subroutine note
+
+  !> Notes a power, if it depends on the time.
+  pure subroutine note_power(reader, bytes, found, power)
+    type(reader_t), intent(inout) :: reader
+    integer, intent(in) :: bytes(2)
+    type(quantity_t), intent(inout) :: found
+    type(quantity_t), intent(in) :: power
+
+    type(quantity_t) :: exponent
+
+    if (found%step > 0 .and. power%step == 0 .and. .not. abs(power%value - anint(power%value)) > &
+      0.0_wp) then
+      call append_step(reader, step_whole_power, found%step, 0, power%value, bytes, found)
+    else
+      exponent = power
+      call note(reader, step_power, bytes, found, exponent)
+    end if
+  end subroutine note_power
+
+  !> Notes a function, if it depends on the time.
+  !!
+  !! Errors: its derivatives jump.
+  pure subroutine note_function(reader, name, bytes, found, other)
+    type(reader_t), intent(inout) :: reader
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: bytes(2)
+    type(quantity_t), intent(inout) :: found !! the first value; it gets the step of the result
+    type(quantity_t), intent(inout) :: other !! the second one, if there is one
+
+    real(wp) :: unit
+    integer :: operation
+
+    if (reader%fault(1) > 0 .or. found%step + other%step == 0) return
+    operation = function_step(name)
+    if (operation == 0) then
+      call complain(reader, bytes(1), bytes(2), "'"//name//"' of what changes in time "// &
+        "jumps or has corners, where a drive has no acceleration; expected a smooth function")
+    else if (count_values(name) == 2) then
+      call note(reader, operation, bytes, found, other)
+    else
+      if (any(name == ["sin", "cos", "tan"]) .and. all(found%dimension == dimension_none)) then
+        found%dimension = dimension_angle
+        found%in_radians = .true.
+      end if
+      unit = merge(1.0_wp, degree, found%in_radians)
+      call append_step(reader, operation, found%step, 0, unit, bytes, found)
+    end if
+  end subroutine note_function
+
+  !> Errors: no double holds a value. One that depends on the time is kept as 1.
   pure subroutine demand_finite(reader, first, last, found)
     type(reader_t), intent(inout) :: reader
     integer, intent(in) :: first, last
-    type(quantity_t), intent(in) :: found
+    type(quantity_t), intent(inout) :: found
 
+    if (found%step > 0) found%value = 1.0_wp
     if (.not. abs(found%value) <= huge(1.0_wp)) call complain(reader, first, last, &
       "the result is too large for a number", kind=error_of_input)
   end subroutine demand_finite

@@ -21,6 +21,8 @@ module quantities
     real(wp) :: value = 0.0_wp    !! in units of bare lengths, masses and times, and an angle's
     integer :: dimension(4) = 0   !! exponents of length, mass, time, angle
     logical :: in_radians = .false. !! of an angle; else it is in degrees
+    integer :: step = 0           !! of a formula over time, which gives it: its value says nothing;
+                                  !! 0: it does not depend on the time
   end type quantity_t
 
   !> Units are written with one digit for a power.

@@ -4,7 +4,7 @@ module substitution
   use cards, only: card_t, entry_t
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_writing
-  use expressions, only: operand_t
+  use expressions, only: operand_t, split_at_names
   use quantities, only: kind_text
   use settings, only: look_up_setting, settings_t
   use text, only: same_word
@@ -120,7 +120,7 @@ contains
     word%is_computed = value%is_computed
   end subroutine set_word
 
-  !> As `substitute_word`, for the value of a key, which may be a list.
+  !> As `substitute_word`, for the value of a key, which may be a list or a formula.
   pure subroutine substitute_entry(entry, slot, settings, diagnostics, slots, count)
     type(entry_t), intent(inout) :: entry
     type(slot_t), intent(in) :: slot !! where the entry is
@@ -132,11 +132,14 @@ contains
     type(slot_t) :: place
     integer :: i
 
-    if (index(entry%value%text, ",") == 0) then
+    if (is_formula(entry)) then
+      entry%items = split_at_names(entry%value)
+    else if (index(entry%value%text, ",") == 0) then
       call substitute_word(entry%value, slot, settings, diagnostics, slots, count)
       return
+    else
+      entry%items = list_items(entry%value)
     end if
-    entry%items = list_items(entry%value)
     place = slot
     do i = 1, size(entry%items)
       if (index(entry%items(i)%text, "$") == 0) cycle
@@ -147,7 +150,15 @@ contains
     call join_items(entry)
   end subroutine substitute_entry
 
-  !> Joins the items of a list to its text.
+  !> Whether the value of a key is arithmetic.
+  pure function is_formula(entry) result(is)
+    type(entry_t), intent(in) :: entry
+    logical :: is
+
+    is = same_word(entry%key%text, "formula")
+  end function is_formula
+
+  !> Joins the items of a list, or the parts of a formula, to its text.
   pure subroutine join_items(entry)
     type(entry_t), intent(inout) :: entry
 
@@ -155,8 +166,12 @@ contains
     integer :: i
 
     do i = 1, size(entry%items)
-      if (i > 1) call append_text(buffer, ",")
-      call append_text(buffer, entry%items(i)%text)
+      if (is_formula(entry) .and. entry%items(i)%set_line /= 0) then
+        call append_text(buffer, "("//entry%items(i)%text//")")
+      else
+        if (i > 1 .and. .not. is_formula(entry)) call append_text(buffer, ",")
+        call append_text(buffer, entry%items(i)%text)
+      end if
     end do
     entry%value%text = buffer_text(buffer)
   end subroutine join_items

@@ -1,16 +1,20 @@
 !> LAW cards: how a drive moves in time; and the TIME card. What a law as a whole is, and
 !! whether it is one, `law_checks` finds.
 module law_cards
-  use card_reader, only: check_form, has_key, has_value, read_choice, read_entry_quantity, &
-    read_measure, read_name, value_of
+  use card_reader, only: check_form, entry_of, has_key, has_value, read_choice, &
+    read_entry_quantity, read_measure, read_name, require_positive, value_of
   use card_table, only: pattern_of
-  use cards, only: card_t
+  use cards, only: card_t, entry_t
+  use constants, only: degree
   use diagnostics, only: add_error, diagnostics_t
+  use expressions, only: evaluate, operand_t
   use kinds, only: wp
   use motion_laws, only: law_words
+  use quantities, only: kind_text, quantity_t
+  use time_formulas, only: add_step, step_scaled, time_formula_t
   use tokens, only: token_t
-  use units, only: coherent_unit, dimension_angle, dimension_length, dimension_time, &
-    unit_system_t, unit_t
+  use units, only: coherent_factor, coherent_unit, dimension_angle, dimension_length, &
+    dimension_time, unit_system_t, unit_t
   use value_lists, only: model_value, read_values, value_list_t
   implicit none (type, external)
   private
@@ -22,7 +26,7 @@ module law_cards
   integer, parameter :: table_free = 1, table_rest = 2, table_periodic = 3
   character(len=*), parameter :: ends_words = "free rest periodic"
 
-  !> One LAW card: a segment, or a table. A word without a line is not on the card.
+  !> One LAW card: a segment, a table, or a formula. A word without a line is not on the card.
   type :: law_card_t
     type(token_t) :: name                 !! without a line if the card cannot be read
     integer :: law = 0                    !! of a segment: one of the law_… constants
@@ -35,12 +39,15 @@ module law_cards
     type(token_t) :: from_word, to_word
     type(token_t) :: table_word           !! of a table
     integer :: ends = table_free          !! of a table: one of the table_… constants
+    type(token_t), allocatable :: formula_words(:) !! of a formula, its parts
+    type(time_formula_t) :: formula       !! likewise [deg], of a slider or a ram [m]
   end type law_card_t
 
 contains
 
-  !> Reads a LAW card: `name kind to= start= stop= [from=]` or `name table= [ends=]`. Errors: words
-  !! or keys that do not fit the card, unreadable values, a segment that stops before it starts.
+  !> Reads a LAW card: `name kind to= start= stop= [from=]`, `name table= [ends=]` or `name formula=
+  !! [period=]`. Errors: words or keys that do not fit the card, unreadable values, a segment that
+  !! stops before it starts, a formula of something else than positions.
   pure subroutine read_law(card, system, diagnostics, law, by_length)
     type(card_t), intent(in) :: card                  !! the LAW card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
@@ -64,11 +71,88 @@ contains
     call read_name(card%words(1), diagnostics)
     if (.not. known_keys) return
     if (has_key(card, "table")) then
+      call refuse_others(card, "table", ["to     ", "from   ", "start  ", "stop   ", "formula", &
+        "period "], diagnostics)
       call read_table_of_law(card, diagnostics, law)
+    else if (has_key(card, "formula")) then
+      call refuse_others(card, "formula", ["to   ", "from ", "start", "stop ", "ends "], &
+        diagnostics)
+      call read_formula_of_law(card, system, by_length, diagnostics, law)
     else
       call read_segment(card, system, by_length, diagnostics, law)
     end if
   end subroutine read_law
+
+  !> Errors: a word or a key that is of segments, or of another form of the card.
+  pure subroutine refuse_others(card, key, others, diagnostics)
+    type(card_t), intent(in) :: card
+    character(len=*), intent(in) :: key !! that the card has
+    character(len=*), intent(in) :: others(:)
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    integer :: i
+
+    if (size(card%words) > 1) call add_error(diagnostics, card%words(2), "unexpected '"// &
+      card%words(2)%text//"': a "//key//" is no segment; expected: "//pattern_of("LAW"))
+    do i = 1, size(others)
+      if (.not. has_key(card, trim(others(i)))) cycle
+      call add_error(diagnostics, card%keyword, "'"//trim(others(i))// &
+        "=' has no meaning beside '"//key//"='")
+    end do
+  end subroutine refuse_others
+
+  !> Reads `formula= [period=]`.
+  pure subroutine read_formula_of_law(card, system, by_length, diagnostics, law)
+    type(card_t), intent(in) :: card
+    type(unit_system_t), intent(in) :: system
+    logical, intent(in) :: by_length
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(law_card_t), intent(inout) :: law
+
+    type(operand_t) :: none(0)
+    type(token_t), allocatable :: words(:)
+    type(entry_t) :: entry
+    type(quantity_t) :: found
+    type(unit_t) :: metre
+    real(wp) :: factor
+    logical :: fine
+    integer :: i
+
+    call read_entry_quantity(card, "period", dimension_time, system, .false., diagnostics, &
+      law%formula%period, fine)
+    if (fine) call require_positive(card, "period", law%formula%period, diagnostics)
+    entry = entry_of(card, "formula")
+    ! What is unknown has an error of its own.
+    if (len(entry%value%text) == 0 .or. entry%value%set_line < 0) return
+    if (allocated(entry%items)) then
+      words = entry%items
+      do i = 1, size(words)
+        ! A `$name` is a value, whatever stands beside it.
+        if (words(i)%set_line == 0) cycle
+        words(i)%text = "("//words(i)%text//")"
+        if (.not. words(i)%is_computed) words(i)%set_column = words(i)%set_column - 1
+      end do
+    else
+      allocate (words(1))
+      words(1) = entry%value
+    end if
+    factor = law%formula%period
+    call evaluate(words, none, system, diagnostics, found, fine, law%formula)
+    law%formula%period = factor
+    if (.not. fine) return
+    if (any(found%dimension /= merge(dimension_length, dimension_angle, by_length))) then
+      call add_error(diagnostics, entry%value, "the position of this drive is "// &
+        trim(merge("a length", "an angle", by_length))//", and this is "//kind_text(found, system))
+      return
+    end if
+    metre = coherent_factor(system, dimension_length)
+    factor = metre%numerator/metre%denominator
+    if (.not. by_length) factor = merge(1.0_wp/degree, 1.0_wp, found%in_radians)
+    if (abs(factor - 1.0_wp) > 0.0_wp) call add_step(law%formula, step_scaled, found%step, 0, &
+      factor, [0, 0])
+    law%name = card%words(1)
+    law%formula_words = words
+  end subroutine read_formula_of_law
 
   !> Reads `table= [ends=]`.
   pure subroutine read_table_of_law(card, diagnostics, law)
@@ -76,16 +160,8 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(law_card_t), intent(inout) :: law
 
-    character(len=5), parameter :: others(4) = [character(len=5) :: "to", "from", "start", "stop"]
-    integer :: i, choice
+    integer :: choice
 
-    if (size(card%words) > 1) call add_error(diagnostics, card%words(2), "unexpected '"// &
-      card%words(2)%text//"': a table is no segment; expected: "//pattern_of("LAW"))
-    do i = 1, size(others)
-      if (.not. has_key(card, trim(others(i)))) cycle
-      call add_error(diagnostics, card%keyword, "'"//trim(others(i))// &
-        "=' has no meaning beside 'table='")
-    end do
     if (has_value(card, "ends")) then
       call read_choice(value_of(card, "ends"), ends_words, diagnostics, choice)
       if (choice > 0) law%ends = choice
@@ -112,6 +188,8 @@ contains
     end if
     if (has_key(card, "ends")) call add_error(diagnostics, card%keyword, &
       "'ends=' is for a table")
+    if (has_key(card, "period")) call add_error(diagnostics, card%keyword, &
+      "'period=' is for a formula")
     law%law_word = card%words(2)
     call read_choice(card%words(2), law_words, diagnostics, law%law)
     call read_position(card, "to", by_length, system, .true., diagnostics, law%to, law%to_word, &

@@ -7,6 +7,7 @@ module law_checks
   use cubic_splines, only: ends_at_rest, ends_not_a_knot, ends_periodic, new_cubic_spline
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use drive_cards, only: moves_along
+  use expressions, only: place_in
   use kinds, only: wp
   use law_cards, only: law_card_t, table_free, table_periodic, table_rest
   use models, only: drives_length, model_t, runs_in_time
@@ -18,6 +19,7 @@ module law_checks
   use spelling, only: suggestion
   use table_cards, only: number_table_t, read_table
   use text, only: same_word, string_t, to_string
+  use time_formulas, only: find_trouble
   use tokens, only: token_t
   use units, only: dimension_angle, dimension_length, dimension_time
   implicit none (type, external)
@@ -28,6 +30,9 @@ module law_checks
   !> Instants that are nearer to each other, relative to a segment, are one; and so with positions
   !! relative to themselves: what is left by conversions of units.
   real(wp), parameter :: rounding = 1.0e-12_wp
+
+  !> Rates at both ends of a period that differ by no more than this share are one.
+  real(wp), parameter :: least_jump = 1.0e-9_wp
 
   !> Why reports do not serve several laws.
   character(len=*), parameter :: of_first = "is about the way of the first drive alone, and "// &
@@ -41,10 +46,12 @@ contains
   !!
   !! Errors: TIME without a law; CRANK and SPEED beside one, and VARY time; a law without cards;
   !! segments that overlap, a first one that does not say where it begins, later ones that begin
-  !! elsewhere than the one before ends; a table beside segments or another table, with less than
-  !! two rows, with an instant beyond its ends. Of laws of further drives: the first one has none;
-  !! one law of an angle and a length; a rule for change points. Warnings: a law that no DRIVE uses,
-  !! a ramp that begins or ends with a jump of the velocity.
+  !! elsewhere than the one before ends; a table or a formula beside another card; a table with less
+  !! than two rows, with an instant beyond its ends; a formula that is not smooth. Of laws of
+  !! further drives: the first one has none; one law of an angle and a length; a rule for change
+  !! points.
+  !! Warnings: a law that no DRIVE uses, a ramp or a period that begins or ends with a jump of the
+  !! velocity.
   subroutine find_laws(cards, diagnostics, model)
     type(card_t), intent(in) :: cards(:)              !! (cards) all of the deck
     type(diagnostics_t), intent(inout) :: diagnostics !! errors and warnings are added
@@ -139,6 +146,8 @@ contains
     if (own_cards(1)%table_word%line > 0) then
       call take_table(cards, own_cards(1), moves_along(model%drives(number)%kind), diagnostics, &
         model, program, fine)
+    else if (allocated(own_cards(1)%formula_words)) then
+      call take_formula(own_cards(1), model, diagnostics, program, fine)
     else
       call take_segments(own_cards, diagnostics, program, fine)
     end if
@@ -278,25 +287,65 @@ contains
     end do
   end subroutine warn_of_idle_laws
 
-  !> Errors: a law has a table and further cards.
+  !> Errors: a law has a table or a formula, and further cards.
   pure subroutine refuse_tables_beside(own_cards, diagnostics, fine)
     type(law_card_t), intent(in) :: own_cards(:)
     type(diagnostics_t), intent(inout) :: diagnostics
     logical, intent(out) :: fine
 
+    type(token_t) :: word
     integer :: i, other
 
     fine = size(own_cards) == 1
     if (fine) return
     do i = 1, size(own_cards)
-      if (own_cards(i)%table_word%line == 0) cycle
+      word = own_cards(i)%table_word
+      if (allocated(own_cards(i)%formula_words)) word = own_cards(i)%formula_words(1)
+      if (word%line == 0) cycle
       other = merge(2, 1, i == 1)
-      call add_error(diagnostics, own_cards(i)%table_word, &
-        "a law is one table, or segments", own_cards(other)%name, "another card of this law")
+      call add_error(diagnostics, word, "a law is one table, one formula, or segments", &
+        own_cards(other)%name, "another card of this law")
       return
     end do
     fine = .true.
   end subroutine refuse_tables_beside
+
+  !> A law by a formula, which has to be smooth over its period, or over the instants of TIME.
+  subroutine take_formula(card, model, diagnostics, program, fine)
+    type(law_card_t), intent(in) :: card
+    type(model_t), intent(in) :: model
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(motion_program_t), intent(inout) :: program
+    logical, intent(out) :: fine
+
+    real(wp) :: range(2), time, ends(0:2, 2)
+    integer :: step, i
+
+    program%formula = card%formula
+    program%formula%period = 0.0_wp
+    range = [0.0_wp, card%formula%period]
+    if (range(2) <= 0.0_wp .and. size(model%time%value) > 0) range = [minval(model%time%value), &
+      maxval(model%time%value)]
+    call find_trouble(program%formula, range(1), range(2), step, time)
+    fine = step == 0
+    if (.not. fine) then
+      associate (bytes => program%formula%steps(step)%place)
+        call add_error(diagnostics, place_in(card%formula_words, max(bytes, 1)), &
+          "this has no value, or no acceleration, near t = "//to_string(time, 6)//" s: it "// &
+          "divides by 0, is a root of 0, or the like")
+      end associate
+      return
+    end if
+    if (card%formula%period <= 0.0_wp) return
+    do i = 1, 2
+      ends(:, i) = program_values(program, range(i))
+    end do
+    program%formula%period = card%formula%period
+    program%formula%way = ends(0, 2) - ends(0, 1)
+    if (abs(ends(1, 2) - ends(1, 1)) > least_jump*maxval(abs(ends(1, :)))) call add_warning( &
+      diagnostics, card%formula_words(1), "the velocity jumps where a period of this formula "// &
+      "ends: forces are infinite there, and tables do not have them")
+  end subroutine take_formula
 
   !> A law of segments.
   pure subroutine take_segments(own_cards, diagnostics, program, fine)

@@ -13,7 +13,7 @@ module sizing_study
   use kinds, only: wp
   use lagrange_study, only: find_lagrange_terms, lagrange_result_t
   use linkages, only: linkage_t
-  use motion_programs, only: motion_program_t
+  use motion_programs, only: motion_program_t, program_period
   use linkage_paths, only: period_of
   use load_tables, only: load_period
   use positions, only: positions_t
@@ -141,7 +141,7 @@ contains
     found%repeats = span%repeats
   end subroutine choose_cycle
 
-  !> The period that all laws have, tables with periodic ends.
+  !> The period that all laws have, tables with periodic ends and formulas with one.
   pure subroutine find_period_of_laws(forces, span)
     type(cycle_forces_t), intent(in) :: forces
     type(cycle_t), intent(inout) :: span
@@ -163,22 +163,18 @@ contains
     type(cycle_t), intent(inout) :: span
 
     real(wp), parameter :: rounding = 1.0e-12_wp
-    real(wp) :: period
+    real(wp) :: range(2), period
 
-    if (allocated(program%segments)) then
+    range = program_period(program)
+    period = range(2) - range(1)
+    if (period <= 0.0_wp) then
       span%repeats = .false.
-      return
+    else if (span%period > 0.0_wp) then
+      span%repeats = span%repeats .and. abs(period - span%period) <= rounding*period
+    else
+      span%from = range(1)
+      span%period = period
     end if
-    associate (x => program%spline%x)
-      period = x(size(x)) - x(1)
-      if (span%period > 0.0_wp) then
-        span%repeats = span%repeats .and. abs(period - span%period) <= rounding*period
-      else
-        span%from = x(1)
-        span%period = period
-      end if
-    end associate
-    span%repeats = span%repeats .and. program%spline%is_periodic
   end subroutine take_period
 
   !> Whether all pins and bodies are after a period where they were, and loads over the turns of the

@@ -1,19 +1,29 @@
-!> Motion programs: a position over time by segments with dwells between them, or by a cubic spline
-!! through a table, and the instants at which its derivatives jump.
+! src/base/motions/ - motions over time: what a drive is led by.
+! Begin with `motion_program_t` here: segments of `motion_laws.f90`, a spline, or a formula, whose
+! steps `time_formulas.f90` has with their derivatives.
+! Not here: the splines (`src/base/numerics/cubic_splines.f90`); how a formula is read
+! (`src/deck/language/expressions.f90`); which drive has which (`src/model/checks/law_checks.f90`).
+
+!> Motion programs: a position over time by segments with dwells between them, by a cubic spline
+!! through a table, or by a formula, and the instants at which its derivatives jump.
 module motion_programs
   use cubic_splines, only: cubic_spline_t, spline_values
   use kinds, only: wp
   use motion_laws, only: law_modified_sine, law_modified_trapezoid, law_parabolic, &
     motion_segment_t, motion_values
   use sorting, only: ascending_order
+  use time_formulas, only: formula_values, time_formula_t
   implicit none (type, external)
   private
 
-  public :: motion_program_t, program_values, program_values_inside, program_breaks
+  public :: motion_program_t, program_values, program_values_inside, program_breaks, &
+    program_period
 
   !> Positions in any unit u.
   type :: motion_program_t
-    type(motion_segment_t), allocatable :: segments(:) !! one after another; not allocated: a table
+    type(motion_segment_t), allocatable :: segments(:) !! one after another; not allocated: a
+                                      !! formula or a table
+    type(time_formula_t) :: formula   !! without steps: a table
     type(cubic_spline_t) :: spline    !! of a table, less the mean rate
     logical :: rests = .false.        !! beyond the ends of the table it stands still
     real(wp) :: rate = 0.0_wp         !! of a periodic table, that goes on from where it has ended
@@ -33,6 +43,9 @@ contains
 
     if (allocated(program%segments)) then
       values = motion_values(program%segments, time)
+      return
+    else if (allocated(program%formula%steps)) then
+      values = formula_values(program%formula, time)
       return
     end if
     values = spline_values(program%spline, time)
@@ -63,7 +76,7 @@ contains
     real(wp), allocatable :: breaks(:)  !! rising, none at `from` and `to` [s]
 
     real(wp), allocatable :: all(:)
-    real(wp) :: last, period
+    real(wp) :: last, period, range(2)
     integer :: i
 
     if (allocated(program%segments)) then
@@ -75,11 +88,14 @@ contains
         end associate
       end do
     else
-      all = program%spline%x
-      if (program%spline%is_periodic) then
-        period = all(size(all)) - all(1)
-        all = [(program%spline%x + i*period, i=floor((from - all(1))/period), &
-          floor((to - all(1))/period))]
+      all = [0.0_wp]
+      if (allocated(program%spline%x)) all = program%spline%x
+      range = program_period(program)
+      period = range(2) - range(1)
+      if (period > 0.0_wp) then
+        all = [(all + i*period, i=floor((from - range(1))/period), floor((to - range(1))/period))]
+      else if (allocated(program%formula%steps)) then
+        all = [real(wp) ::]
       end if
     end if
     all = all(ascending_order(all))
@@ -91,6 +107,19 @@ contains
       breaks = [breaks, last]
     end do
   end function program_breaks
+
+  !> The first period of what repeats, from time to time; of what does not, no time.
+  pure function program_period(program) result(range)
+    type(motion_program_t), intent(in) :: program
+    real(wp) :: range(2) !! [s]
+
+    range = 0.0_wp
+    if (allocated(program%formula%steps)) then
+      range(2) = program%formula%period
+    else if (program%spline%is_periodic) then
+      range = program%spline%x([1, size(program%spline%x)])
+    end if
+  end function program_period
 
   !> Shares of the time of a rise at which derivatives of its law jump, its end left out.
   pure function breaks_of(law) result(shares)
