@@ -5,7 +5,8 @@
 !! stay open.
 module elastic_reactions
   use acceleration_fields, only: point_acceleration
-  use applied_loads, only: add_moving_loads, forced_places, has_moving_loads
+  use applied_loads, only: add_moving_loads, evaluate_loads, forced_places, has_moving_loads
+  use coordinates, only: evaluated_t
   use deformation_model, only: deformation_model_t, new_deformation_model
   use elastic_linkages, only: elastic_linkage_t, new_elastic_linkage, shared_pin
   use errors, only: error_of_input, error_t, set_error
@@ -293,6 +294,7 @@ contains
     type(kinematic_coefficients_t) :: now
     type(part_loads_t) :: loads
     type(load_t) :: body_load(size(division%structure%linkage%bodies))
+    type(evaluated_t), allocatable :: along(:)
     real(wp) :: pin_load(2, size(division%structure%linkage%is_ground))
 
     pin_load = 0.0_wp
@@ -302,7 +304,8 @@ contains
         return
       end if
       now = velocities_at(coefficients, speed)
-      call add_moving_loads(linkage, at%pose, now, body_load, pin_load)
+      call evaluate_loads(linkage, at%pose, along)
+      call add_moving_loads(linkage, at%pose, along, now, body_load, pin_load)
       joints = find_joint_forces(linkage, at%pose, body_load, pin_load)
       loads = no_part_loads(at%here%elastic)
       call add_moving_efforts(linkage, at%pose, now, at%here%elastic, at%here%pose, loads)

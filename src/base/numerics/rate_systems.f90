@@ -34,7 +34,7 @@ contains
   !! place of its stages, is estimated as none, or where such a load passes zero just before and so
   !! has one course on both sides.
   function no_switches(self, state) result(switches)
-    class(rate_system_t), intent(in) :: self !! the system of equations
+    class(rate_system_t), intent(inout) :: self !! the system of equations
     real(wp), intent(in) :: state(:)         !! (unknowns) y
     real(wp), allocatable :: switches(:, :)  !! (2, always as many) s, or s and 0 [-]; empty: none,
                                              !! or no rates here
@@ -45,7 +45,7 @@ contains
   !> Contacts that begin smoothly where a depth becomes positive. What is nothing before may be so
   !! short that a step would pass over it.
   function no_contacts(self, state) result(contacts)
-    class(rate_system_t), intent(in) :: self !! the system of equations
+    class(rate_system_t), intent(inout) :: self !! the system of equations
     real(wp), intent(in) :: state(:)         !! (unknowns) y
     real(wp), allocatable :: contacts(:, :)  !! (3, always as many) depth, its rate, and the width
                                              !! in which the contact begins; empty: none, or no

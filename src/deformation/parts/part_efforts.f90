@@ -2,10 +2,10 @@
 !! direction of the motion, friction in a joint, the torque of a motor. All are in the first case.
 module part_efforts
   use applied_load_types, only: applies_couple, applies_force, is_torsional
-  use applied_loads, only: moving_pulls, is_moving, moving_couple, moving_force
+  use applied_loads, only: evaluate_loads, is_moving, moving_couple, moving_force, moving_pulls
   use carried_bodies, only: carried_force
-  use coordinate_types, only: terminal_t, wrench_t
-  use coordinates, only: coordinate_wrenches
+  use coordinate_types, only: terminal_t
+  use coordinates, only: evaluated_t
   use elastic_linkages, only: add_couple, elastic_linkage_t, spring_pin
   use group_equations, only: line_axis
   use kinds, only: wp
@@ -63,10 +63,11 @@ contains
     type(part_loads_t), intent(inout) :: loads      !! of these parts
 
     real(wp), allocatable :: pull(:)
-    type(wrench_t) :: wrench(2)
+    type(evaluated_t), allocatable :: along(:)
     integer :: i, k
 
-    pull = moving_pulls(linkage, pose, now)
+    call evaluate_loads(linkage, pose, along)
+    pull = moving_pulls(linkage, pose, along, now)
     do i = 1, size(linkage%loads)
       associate (load => linkage%loads(i))
         if (.not. is_moving(load)) cycle
@@ -78,14 +79,15 @@ contains
           call add_couple(elastic, load%at%body, moving_couple(linkage, pose, now, load), &
             loads%unit%of_case(effort_case)%couple)
         case default
-          wrench = coordinate_wrenches(linkage, pose, load%along)
           do k = 1, 2
-            if (is_torsional(load)) then
-              call add_end_couple(elastic, load%along%at(k)%body, spring_pin(linkage, i), &
-                -pull(i)*wrench(k)%couple, loads)
-            else
-              call add_force(elastic, placed, i, load%along%at(k), -pull(i)*wrench(k)%force, loads)
-            end if
+            associate (wrench => along(i)%wrench(k))
+              if (is_torsional(load)) then
+                call add_end_couple(elastic, load%along%at(k)%body, spring_pin(linkage, i), &
+                  -pull(i)*wrench%couple, loads)
+              else
+                call add_force(elastic, placed, i, load%along%at(k), -pull(i)*wrench%force, loads)
+              end if
+            end associate
           end do
         end select
       end associate

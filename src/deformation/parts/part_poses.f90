@@ -9,8 +9,9 @@
 module part_poses
   use acceleration_fields, only: acceleration_field_t, point_acceleration
   use applied_load_types, only: is_torsional
-  use applied_loads, only: standing_pulls
+  use applied_loads, only: evaluate_loads, standing_pulls
   use constants, only: degree
+  use coordinates, only: evaluated_t
   use carried_bodies, only: add_short_pieces, carried_loads
   use elastic_linkages, only: add_couple, elastic_linkage_t, spring_t
   use errors, only: error_t
@@ -84,6 +85,7 @@ contains
     type(pose_t), intent(in) :: placed               !! its points and parts
     type(part_loads_t), intent(out) :: of_parts
 
+    type(evaluated_t), allocatable :: along(:)
     integer :: i
 
     allocate (of_parts%moment(elastic%rotations, case_count), of_parts%end_couple(2, &
@@ -108,7 +110,8 @@ contains
       end associate
     end do
     if (loads%occurs(constant_case)) then
-      associate (pull => standing_pulls(linkage, pose))
+      call evaluate_loads(linkage, pose, along)
+      associate (pull => standing_pulls(linkage, along))
         of_parts%pull = pull(elastic%springs%load)
         of_parts%tension = pull(elastic%tensions%load)
       end associate

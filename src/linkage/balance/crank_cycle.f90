@@ -1,13 +1,15 @@
 !> A cycle of the crank, of one turn or several: shaking force, shaking moment and drive torque as
 !! periodic quantities.
 module crank_cycle
-  use load_tables, only: refuse_beyond_tables
+  use applied_loads, only: evaluate_loads
   use balance_shafts, only: parts_of_shafts
+  use coordinates, only: evaluated_t
   use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use linkages, only: linkage_t
   use load_cases, only: case_count
+  use load_tables, only: refuse_beyond_tables
   use poses, only: find_pose, pose_t
   use reactions, only: find_unit_reactions, unit_reactions_t
   use rigid_bodies, only: rigid_bodies_of, rigid_body_t, total_mass
@@ -74,6 +76,7 @@ contains
     type(unit_reactions_t) :: unit
     type(running_t) :: loads
     type(lock_t) :: lock
+    type(evaluated_t), allocatable :: along(:)
     integer :: i
 
     part = 0.0_wp
@@ -87,7 +90,8 @@ contains
         unit%of_case(i)%joints%torque]
     end do
     if (allocated(linkage%shafts)) part = part + parts_of_shafts(linkage, crank)
-    call refuse_beyond_tables(linkage, pose, error)
+    call evaluate_loads(linkage, pose, along)
+    call refuse_beyond_tables(linkage, pose, along, error)
     if (allocated(error) .or. .not. depends_on_speed(linkage)) return
     do i = 1, size(speed)
       call find_running_loads(linkage, pose, coefficients, speed(i), acceleration, unit, loads)

@@ -7,66 +7,124 @@ module coordinates
   use constants, only: degree
   use coordinate_types, only: coordinate_t, frame_t, is_across, is_along, is_angle, is_distance, &
     is_sum, terminal_t, twist_t, wrench_t
-  use distances, only: distance_acceleration, distance_axis, distance_rate, distance_value
+  use distances, only: distance_acceleration, find_distance
   use group_equations, only: drive_value
   use kinds, only: wp
-  use lines, only: line_acceleration, line_axis, line_couple, line_rate, line_value
+  use lines, only: line_acceleration, line_axis, line_couple, line_value
   use linkages, only: cross, drive_of_angle, linkage_t
   use pose_types, only: kinematic_coefficients_t, pose_t
   use terminals, only: frames_of, places_of, terminal_acceleration, terminal_direction, twists_of
   implicit none (type, external)
   private
 
-  public :: coordinate_value, coordinate_rate, coordinate_acceleration, coordinate_wrenches, &
-    slider_coordinate, is_turning
+  public :: evaluated_t, evaluate, evaluated_rate
+  public :: coordinate_value, coordinate_rate, coordinate_acceleration, slider_coordinate, &
+    is_turning
+
+  !> A coordinate at a pose, found once for all that is asked of it there.
+  type :: evaluated_t
+    real(wp) :: value           !! [m] or [rad]
+    type(wrench_t) :: wrench(2) !! what an effort of 1 along it puts on its terminals: the virtual
+                                !! work of this is its change; 0 of a sum
+  end type evaluated_t
 
 contains
 
-  !> Its value [m] or [rad].
-  pure recursive function coordinate_value(linkage, pose, coordinate, crank) result(value)
+  !> What a coordinate is at a pose. The gradient of a sum is that of its terms.
+  pure recursive subroutine evaluate(linkage, pose, coordinate, evaluated, crank)
     type(linkage_t), intent(in) :: linkage !! its bodies, and the terms of a sum
     type(pose_t), intent(in) :: pose       !! positions and directions
     type(coordinate_t), intent(in) :: coordinate
+    type(evaluated_t), intent(out) :: evaluated
     real(wp), intent(in), optional :: crank !! coordinate of the first drive, where several have
                                            !! one pose; absent: that of the pose [deg] or [m]
-    real(wp) :: value
 
-    real(wp) :: direction(2, 2), at
-    integer :: i
+    type(frame_t) :: frame(2)
+    type(evaluated_t) :: term
+    real(wp) :: place(2, 2), direction(2, 2), at
+    integer :: k
 
-    value = 0.0_wp
-    if (coordinate%drive > 0) then
+    evaluated%value = 0.0_wp
+    do k = 1, 2
+      evaluated%wrench(k)%place = 0.0_wp
+      evaluated%wrench(k)%force = 0.0_wp
+      evaluated%wrench(k)%couple = 0.0_wp
+    end do
+    associate (value => evaluated%value, wrench => evaluated%wrench)
+      select case (coordinate%kind)
+      case (is_distance)
+        place = places_of(linkage, pose, coordinate%at)
+        wrench(1)%place = place(:, 1)
+        wrench(2)%place = place(:, 2)
+        call find_distance(place, value, wrench(2)%force)
+        wrench(1)%force = -wrench(2)%force
+      case (is_along, is_across)
+        frame = frames_of(linkage, pose, coordinate%at)
+        wrench(1)%place = frame(1)%place
+        wrench(2)%place = frame(2)%place
+        value = line_value(frame, coordinate%kind == is_across)
+        wrench(2)%force = line_axis(frame, coordinate%kind == is_across)
+        wrench(1)%force = -wrench(2)%force
+        wrench(1)%couple = line_couple(frame, coordinate%kind == is_across)
+      case (is_angle)
+        if (coordinate%drive == 0) then
+          direction(:, 1) = terminal_direction(pose, coordinate%at(1))
+          direction(:, 2) = terminal_direction(pose, coordinate%at(2))
+          ! Adding zero turns −0 into 0.
+          value = atan2(cross(direction(:, 1), direction(:, 2)) + 0.0_wp, &
+            dot_product(direction(:, 1), direction(:, 2)) + 0.0_wp)
+        end if
+        wrench(2)%couple = 1.0_wp
+        wrench(1)%couple = -1.0_wp
+      case (is_sum)
+        do k = 1, size(coordinate%term)
+          call evaluate(linkage, pose, linkage%coordinates(coordinate%term(k)), term, crank)
+          value = value + coordinate%weight(k)*term%value
+        end do
+      end select
+      if (coordinate%drive == 0) return
       at = pose%crank
       if (present(crank)) at = crank
       value = drive_value(linkage, coordinate%drive, at)
       if (linkage%drives(coordinate%drive)%kind == drive_of_angle) value = value*degree
-      return
-    end if
-    select case (coordinate%kind)
-    case (is_distance)
-      value = distance_value(places_of(linkage, pose, coordinate%at))
-    case (is_along, is_across)
-      value = line_value(frames_of(linkage, pose, coordinate%at), coordinate%kind == is_across)
-    case (is_angle)
-      direction(:, 1) = terminal_direction(pose, coordinate%at(1))
-      direction(:, 2) = terminal_direction(pose, coordinate%at(2))
-      ! Adding zero turns −0 into 0.
-      value = atan2(cross(direction(:, 1), direction(:, 2)) + 0.0_wp, &
-        dot_product(direction(:, 1), direction(:, 2)) + 0.0_wp)
-    case (is_sum)
-      do i = 1, size(coordinate%term)
-        value = value + coordinate%weight(i)*coordinate_value(linkage, pose, &
-          linkage%coordinates(coordinate%term(i)), crank)
-      end do
-    end select
+    end associate
+  end subroutine evaluate
+
+  !> Its value [m] or [rad].
+  pure function coordinate_value(linkage, pose, coordinate, crank) result(value)
+    type(linkage_t), intent(in) :: linkage !! as for `evaluate`, like all others
+    type(pose_t), intent(in) :: pose
+    type(coordinate_t), intent(in) :: coordinate
+    real(wp), intent(in), optional :: crank
+    real(wp) :: value
+
+    type(evaluated_t) :: evaluated
+
+    call evaluate(linkage, pose, coordinate, evaluated, crank)
+    value = evaluated%value
   end function coordinate_value
 
   !> Its rate [m/s] or [rad/s].
-  pure recursive function coordinate_rate(linkage, pose, motion, coordinate) result(rate)
-    type(linkage_t), intent(in) :: linkage !! as for `coordinate_value`
-    type(pose_t), intent(in) :: pose       !! positions and directions
+  pure function coordinate_rate(linkage, pose, motion, coordinate) result(rate)
+    type(linkage_t), intent(in) :: linkage !! as for `evaluate`
+    type(pose_t), intent(in) :: pose
     type(kinematic_coefficients_t), intent(in) :: motion !! velocities of pins and bodies
     type(coordinate_t), intent(in) :: coordinate
+    real(wp) :: rate
+
+    type(evaluated_t) :: evaluated
+
+    call evaluate(linkage, pose, coordinate, evaluated)
+    rate = evaluated_rate(linkage, pose, motion, coordinate, evaluated)
+  end function coordinate_rate
+
+  !> The same where it is evaluated already: what its wrenches do on its terminals.
+  pure recursive function evaluated_rate(linkage, pose, motion, coordinate, evaluated) result(rate)
+    type(linkage_t), intent(in) :: linkage !! as for `evaluate`
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: motion !! velocities of pins and bodies
+    type(coordinate_t), intent(in) :: coordinate
+    type(evaluated_t), intent(in) :: evaluated !! of it, at this pose
     real(wp) :: rate
 
     type(twist_t) :: twist(2)
@@ -81,16 +139,11 @@ contains
       return
     end if
     twist = twists_of(linkage, pose, motion, coordinate%at)
-    select case (coordinate%kind)
-    case (is_distance)
-      rate = distance_rate(places_of(linkage, pose, coordinate%at), twist)
-    case (is_along, is_across)
-      rate = line_rate(frames_of(linkage, pose, coordinate%at), twist, &
-        coordinate%kind == is_across)
-    case (is_angle)
-      rate = twist(2)%turn - twist(1)%turn
-    end select
-  end function coordinate_rate
+    associate (wrench => evaluated%wrench)
+      rate = dot_product(wrench(2)%force, twist(2)%velocity - twist(1)%velocity) + &
+        wrench(1)%couple*twist(1)%turn + wrench(2)%couple*twist(2)%turn
+    end associate
+  end function evaluated_rate
 
   !> Its acceleration [m/s²] or [rad/s²].
   pure recursive function coordinate_acceleration(linkage, pose, motion, coordinate) &
@@ -150,42 +203,5 @@ contains
       coordinate%at(2)%pin = slider%pin
     end associate
   end function slider_coordinate
-
-  !> What an effort of 1 along one that is no sum puts on its terminals: the virtual work of this is
-  !! its change.
-  pure function coordinate_wrenches(linkage, pose, coordinate) result(wrench)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(coordinate_t), intent(in) :: coordinate
-    type(wrench_t) :: wrench(2)
-
-    type(frame_t) :: frame(2)
-    real(wp) :: place(2, 2)
-    integer :: k
-
-    do k = 1, 2
-      wrench(k)%place = 0.0_wp
-      wrench(k)%force = 0.0_wp
-      wrench(k)%couple = 0.0_wp
-    end do
-    if (coordinate%kind == is_angle) then
-      wrench(2)%couple = 1.0_wp
-      wrench(1)%couple = -1.0_wp
-      return
-    end if
-    if (coordinate%kind == is_distance) then
-      place = places_of(linkage, pose, coordinate%at)
-      wrench(1)%place = place(:, 1)
-      wrench(2)%place = place(:, 2)
-      wrench(2)%force = distance_axis(place)
-    else
-      frame = frames_of(linkage, pose, coordinate%at)
-      wrench(1)%place = frame(1)%place
-      wrench(2)%place = frame(2)%place
-      wrench(2)%force = line_axis(frame, coordinate%kind == is_across)
-      wrench(1)%couple = line_couple(frame, coordinate%kind == is_across)
-    end if
-    wrench(1)%force = -wrench(2)%force
-  end function coordinate_wrenches
 
 end module coordinates

@@ -7,7 +7,7 @@ module lines
   implicit none (type, external)
   private
 
-  public :: line_value, line_axis, line_couple, line_rate, line_acceleration
+  public :: line_value, line_axis, line_couple, line_acceleration
 
 contains
 
@@ -29,7 +29,8 @@ contains
     if (is_across) axis = normal_to(axis)
   end function line_axis
 
-  !> n·(P₂ − P₁), the couple that an effort of 1 puts on the first terminal besides.
+  !> n·(P₂ − P₁), the couple that an effort of 1 puts on the first terminal besides, for e turns
+  !! with n ω.
   pure function line_couple(frame, is_across) result(couple)
     type(frame_t), intent(in) :: frame(2)
     logical, intent(in) :: is_across
@@ -37,20 +38,6 @@ contains
 
     couple = dot_product(normal_to(line_axis(frame, is_across)), frame(2)%place - frame(1)%place)
   end function line_couple
-
-  !> e·(v₂ − v₁) + ω n·(P₂ − P₁), for e turns with n ω.
-  pure function line_rate(frame, twist, is_across) result(rate)
-    type(frame_t), intent(in) :: frame(2)
-    type(twist_t), intent(in) :: twist(2)
-    logical, intent(in) :: is_across
-    real(wp) :: rate
-
-    real(wp) :: axis(2)
-
-    axis = line_axis(frame, is_across)
-    rate = dot_product(axis, twist(2)%velocity - twist(1)%velocity) + &
-      twist(1)%turn*dot_product(normal_to(axis), frame(2)%place - frame(1)%place)
-  end function line_rate
 
   !> e·(a₂ − a₁) + 2 ω n·(v₂ − v₁) + α n·(P₂ − P₁) − ω² s.
   pure function line_acceleration(frame, twist, slope, is_across) result(acceleration)

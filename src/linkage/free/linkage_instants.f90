@@ -2,6 +2,7 @@
 module linkage_instants
   use applied_loads, only: add_conservative_loads, add_moving_loads, add_prescribed_loads, &
     generalised_force
+  use coordinates, only: evaluated_t
   use free_friction, only: find_free_friction
   use gears, only: driven_t
   use inertia_loads, only: load_t
@@ -30,6 +31,7 @@ module linkage_instants
     type(pose_t) :: pose                         !! pins from `reference_point`
     type(kinematic_coefficients_t), allocatable :: per(:) !! (coordinates) velocities per rate
     type(kinematic_coefficients_t) :: motion     !! velocities, and accelerations
+    type(evaluated_t), allocatable :: along(:)   !! (loads) of `evaluate_loads`
     real(wp), allocatable :: acceleration(:)     !! (coordinates) ü
     type(driven_t) :: driven                     !! motor and gear
     real(wp) :: load_power = 0.0_wp              !! of all loads without a potential [W]
@@ -141,7 +143,7 @@ contains
 
     found = .true.
     pin_load = 0.0_wp
-    associate (linkage => whole%linkage, pose => instant%pose, &
+    associate (linkage => whole%linkage, pose => instant%pose, along => instant%along, &
         per => instant%per, now => instant%motion, right => instant%all_right, &
         driving => instant%driving, loading => instant%loading)
       do k = 1, size(per)
@@ -151,9 +153,9 @@ contains
       loading = loading + added
       if (size(linkage%loads) > 0 .or. has_friction(linkage)) then
         spring_force = 0.0_wp
-        call add_conservative_loads(linkage, pose, of_springs, spring_force)
+        call add_conservative_loads(linkage, pose, along, of_springs, spring_force)
         call add_prescribed_loads(linkage, pose, body_load, pin_load)
-        call add_moving_loads(linkage, pose, now, body_load, pin_load)
+        call add_moving_loads(linkage, pose, along, now, body_load, pin_load)
         do k = 1, size(per)
           right(k) = right(k) + generalised_force(linkage, per(k), of_springs, spring_force)
           added(k) = generalised_force(linkage, per(k), body_load, pin_load)

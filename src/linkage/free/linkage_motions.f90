@@ -19,6 +19,7 @@ module linkage_motions
   use joint_friction, only: has_friction
   use kinds, only: long, wp
   use kinematic_coefficients, only: kinematic_coefficients_t
+  use linkage_instants, only: linkage_instant_t
   use linkage_paths, only: has_change_points, period_of
   use linkage_rates, only: all_inertia_of, find_rates_of_coordinates, find_state, free_drives, &
     inertia_share, least_inertia_of, longest_step, moving_linkage_t, no_stop, place_by_drives, &
@@ -401,8 +402,7 @@ contains
     type(linkage_motion_t), intent(inout) :: motion
 
     type(pose_t) :: pose
-    type(kinematic_coefficients_t), allocatable :: per(:)
-    type(kinematic_coefficients_t) :: now
+    type(linkage_instant_t) :: at
     type(error_t), allocatable :: error
     logical :: near, found
 
@@ -413,13 +413,13 @@ contains
         system%pose = pose
         near = is_near_dead_point(system%whole%linkage, pose, size(system%free))
       end if
-      if (near) call find_state(system, motion%state, pose, per, now, found)
+      if (near) call find_state(system, motion%state, at, found)
       call read_drives(motion)
       if (.not. near) return
-      system%chart = new_chart(system%whole, pose, motion%position(1), size(system%free))
+      system%chart = new_chart(system%whole, at%pose, motion%position(1), size(system%free))
       system%by_drives = .false.
     end associate
-    call set_rates(motion, now)
+    call set_rates(motion, at%motion)
     call reopen_steps(motion)
   end subroutine go_on_by_drives
 
@@ -430,16 +430,14 @@ contains
     real(wp), intent(in) :: time      !! at the beginning of the step [s]
     real(wp), intent(in) :: before(:) !! state at that time
 
-    type(pose_t) :: pose
+    type(linkage_instant_t) :: at
     type(motion_chart_t) :: chart
-    type(kinematic_coefficients_t), allocatable :: per(:)
-    type(kinematic_coefficients_t) :: now
     real(wp) :: determinants(size(motion%is_left)), rates(size(motion%position))
     logical :: found
     integer :: k
 
-    associate (system => motion%system)
-      call find_state(system, motion%state, pose, per, now, found)
+    associate (system => motion%system, pose => at%pose, now => at%motion)
+      call find_state(system, motion%state, at, found)
       chart = new_chart(system%whole, pose, drive_position(system%whole, pose, 1, &
         motion%position(1)), size(system%free))
       if (.not. is_same_side(system%whole, system%chart, chart) .or. chart%independence < &
@@ -566,6 +564,8 @@ contains
     integer :: f, k
 
     associate (system => motion%system)
+      ! The same numbers are another state.
+      system%is_seen = .false.
       f = size(system%free)
       motion%state(:f) = 0.0_wp
       motion%state(f + 1:2*f) = [(rate_along(system%whole, system%chart%direction(:, k), &
@@ -647,9 +647,7 @@ contains
       real(wp), intent(out) :: value
 
       type(error_t), allocatable :: error
-      type(pose_t) :: pose
-      type(kinematic_coefficients_t), allocatable :: per(:)
-      type(kinematic_coefficients_t) :: now
+      type(linkage_instant_t) :: at
       real(wp) :: state(size(before)), slope(3)
 
       value = 0.0_wp
@@ -658,16 +656,16 @@ contains
         state = before
         if (step > 0.0_wp) call step_by(motion%integrator, system, time, step, state, error)
         if (allocated(error)) return
-        call find_state(system, state, pose, per, now, found)
+        call find_state(system, state, at, found)
         if (.not. found) return
         passage%time = time + step
         if (allocated(system%loop)) then
           passage%position = state(1)/degree + 360.0_wp*system%turns(1)
         else
-          passage%position = drive_position(system%whole, pose, 1, motion%position(1))
+          passage%position = drive_position(system%whole, at%pose, 1, motion%position(1))
         end if
         if (group > 0) then
-          value = determinant_of(system%whole%linkage, pose, group)
+          value = determinant_of(system%whole%linkage, at%pose, group)
         else
           call place_from_crossing(system%loop, state(1:3), value, slope)
         end if

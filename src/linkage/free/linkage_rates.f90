@@ -9,10 +9,11 @@
 !! along h_k, and b the accelerations with the present rates and no ü.
 module linkage_rates
   use adaptive_integration, only: rate_system_t
+  use applied_loads, only: evaluate_loads
   use block_ends, only: refuse_leaving_block
   use constants, only: degree, two_pi
   use coordinate_types, only: coordinate_t, is_distance, is_sum, twist_t
-  use coordinates, only: coordinate_value
+  use coordinates, only: coordinate_value, evaluated_rate
   use dense_factor, only: dense_factor_t, factorize, solve
   use drives, only: drive_t, refuse_speed
   use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
@@ -88,6 +89,8 @@ module linkage_rates
     real(wp) :: turns(3) = 0.0_wp               !! whole turns that these do not contain
     real(wp) :: all_inertia = 0.0_wp            !! of a loop, `all_inertia_of` it [kg m²]
     type(linkage_instant_t), allocatable, private :: instant !! the last one: room for the next
+    real(wp), allocatable :: seen(:)            !! state that it is of,
+    logical :: is_seen = .false.                !! if of any
     logical :: has_loads = .true.               !! besides weights and constant forces on pins
     integer :: stop = no_stop                   !! why rates were last not found
     type(error_t), allocatable :: left          !! the block that left its link, or the table
@@ -111,12 +114,10 @@ contains
   end function free_drives
 
   !> Pose, velocities per rate of coordinate, velocities and accelerations without ü at a state.
-  subroutine find_state(self, state, pose, per, now, found, left, is_crossing, time)
+  subroutine find_state(self, state, instant, found, left, is_crossing, time)
     class(moving_linkage_t), intent(in) :: self
     real(wp), intent(in) :: state(:)    !! coordinates, rates, work
-    type(pose_t), intent(inout) :: pose !! new, or of another state; pins from `reference_point`
-    type(kinematic_coefficients_t), allocatable, intent(inout) :: per(:) !! likewise (coordinates)
-    type(kinematic_coefficients_t), intent(inout) :: now !! likewise, per second
+    type(linkage_instant_t), intent(inout) :: instant !! new, or of another state
     logical, intent(out) :: found       !! the coordinates reach so far
     type(error_t), allocatable, intent(out), optional :: left !! else the block that leaves its
                                                               !! link, or the table that ends
@@ -130,68 +131,99 @@ contains
     integer :: f, k
 
     if (present(is_crossing)) is_crossing = .false.
-
-    if (allocated(self%loop)) then
-      call find_point(self%loop, state(1:3), point, found)
-      if (present(is_crossing)) is_crossing = .not. found
-      if (.not. found) return
-      if (.not. allocated(per)) allocate (per(1))
-      call place_on_curve(self%whole%linkage, self%loop%four_bar, point, state(1) + &
-        two_pi*self%turns(1), state(4), pose, per(1), now)
-      call refuse_loads(self%whole%linkage, pose, error, time)
-      found = .not. allocated(error)
-      if (present(left)) call move_alloc(error, left)
-      return
-    end if
     f = size(self%free)
-    if (allocated(per)) deallocate (per)
-    if (.not. self%by_drives) then
-      call find_on_chart(self%whole, self%chart, state(:f), pose, factor, found)
-      if (.not. found) return
-      pose%crank = drive_position(self%whole, pose, 1, self%chart%crank)
-      call refuse_leaving_block(self%whole%linkage, pose, error)
-      if (.not. allocated(error)) call refuse_loads(self%whole%linkage, pose, error, time)
+    associate (linkage => self%whole%linkage, pose => instant%pose, now => instant%motion)
+      if (allocated(self%loop)) then
+        call find_point(self%loop, state(1:3), point, found)
+        if (present(is_crossing)) is_crossing = .not. found
+        if (.not. found) return
+        if (.not. allocated(instant%per)) allocate (instant%per(1))
+        call place_on_curve(linkage, self%loop%four_bar, point, state(1) + two_pi*self%turns(1), &
+          state(4), pose, instant%per(1), now)
+        call refuse_loads(linkage, instant, error, time)
+        found = .not. allocated(error)
+        if (present(left)) call move_alloc(error, left)
+        return
+      end if
+      if (allocated(instant%per)) deallocate (instant%per)
+      if (.not. self%by_drives) then
+        call find_on_chart(self%whole, self%chart, state(:f), pose, factor, found)
+        if (.not. found) return
+        pose%crank = drive_position(self%whole, pose, 1, self%chart%crank)
+        call refuse_leaving_block(linkage, pose, error)
+        if (.not. allocated(error)) call refuse_loads(linkage, instant, error, time)
+        found = .not. allocated(error)
+        if (present(left)) call move_alloc(error, left)
+        if (.not. found) return
+        call velocities(self%whole, self%chart, factor, instant%per)
+        call accelerations(self%whole, self%chart, factor, pose, instant%per, state(f + 1:2*f), now)
+        return
+      end if
+      call place_by_drives(self, state(:f), pose, error)
       found = .not. allocated(error)
-      if (present(left)) call move_alloc(error, left)
+      if (present(left) .and. .not. found) then
+        if (error%place%pin > 0) call move_alloc(error, left)
+      end if
       if (.not. found) return
-      call velocities(self%whole, self%chart, factor, per)
-      call accelerations(self%whole, self%chart, factor, pose, per, state(f + 1:2*f), now)
-      return
-    end if
-    call place_by_drives(self, state(:f), pose, error)
-    found = .not. allocated(error)
-    if (present(left) .and. .not. found) then
-      if (error%place%pin > 0) call move_alloc(error, left)
-    end if
-    if (.not. found) return
-    pose%crank = state(1)
-    if (self%whole%linkage%drives(1)%kind == drive_of_angle) pose%crank = state(1)/degree + &
-      self%turned
-    call refuse_loads(self%whole%linkage, pose, error, time)
-    found = .not. allocated(error)
-    if (present(left) .and. .not. found) call move_alloc(error, left)
-    if (.not. found) return
-    now = find_kinematic_coefficients(self%whole%linkage, pose, rates_of_drives(self, state(f + &
-      1:2*f)))
-    allocate (per(f))
-    do k = 1, f
-      direction = 0.0_wp
-      direction(k) = 1.0_wp
-      call find_velocities(self%whole%linkage, pose, rates_of_drives(self, direction), per(k))
-    end do
+      pose%crank = state(1)
+      if (linkage%drives(1)%kind == drive_of_angle) pose%crank = state(1)/degree + self%turned
+      call refuse_loads(linkage, instant, error, time)
+      found = .not. allocated(error)
+      if (present(left) .and. .not. found) call move_alloc(error, left)
+      if (.not. found) return
+      now = find_kinematic_coefficients(linkage, pose, rates_of_drives(self, state(f + 1:2*f)))
+      allocate (instant%per(f))
+      do k = 1, f
+        direction = 0.0_wp
+        direction(k) = 1.0_wp
+        call find_velocities(linkage, pose, rates_of_drives(self, direction), instant%per(k))
+      end do
+    end associate
   end subroutine find_state
 
-  !> Refuses a pose where loads end; the pose gets its time.
-  pure subroutine refuse_loads(linkage, pose, error, time)
+  !> Evaluates the coordinates of loads, and refuses a pose where these end; it gets its time.
+  pure subroutine refuse_loads(linkage, instant, error, time)
     type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(inout) :: pose
+    type(linkage_instant_t), intent(inout) :: instant
     type(error_t), allocatable, intent(inout) :: error
     real(wp), intent(in), optional :: time !! [s]
 
-    pose%has_time = present(time)
-    if (present(time)) pose%time = time
-    if (size(linkage%loads) > 0) call refuse_beyond_tables(linkage, pose, error)
+    instant%pose%has_time = present(time)
+    if (present(time)) instant%pose%time = time
+    call evaluate_loads(linkage, instant%pose, instant%along)
+    call refuse_beyond_tables(linkage, instant%pose, instant%along, error)
   end subroutine refuse_loads
+
+  !> The last instant becomes that of a state: with pose and velocities at least.
+  subroutine look_at(self, state, found)
+    class(moving_linkage_t), intent(inout) :: self
+    real(wp), intent(in) :: state(:) !! coordinates, rates, work
+    logical, intent(out) :: found    !! as of `find_state`
+
+    type(linkage_instant_t), allocatable :: instant
+
+    found = self%is_seen
+    if (found) found = all(abs(self%seen - state) <= 0.0_wp)
+    if (found) return
+    call take_room(self, instant)
+    call find_state(self, state, instant, found)
+    call move_alloc(instant, self%instant)
+    self%seen = state
+    self%is_seen = found
+  end subroutine look_at
+
+  !> Room for an instant: that of the last one, which is no more.
+  subroutine take_room(self, instant)
+    class(moving_linkage_t), intent(inout) :: self
+    type(linkage_instant_t), allocatable, intent(out) :: instant
+
+    self%is_seen = .false.
+    if (allocated(self%instant)) then
+      call move_alloc(self%instant, instant)
+    else
+      allocate (instant)
+    end if
+  end subroutine take_room
 
   !> The pose at coordinates of the free drives.
   !!
@@ -274,19 +306,17 @@ contains
     real(wp), intent(in) :: rates(:)     !! (free drives) [rad/s] or [m/s]
     real(wp), intent(inout) :: state(:)  !! coordinates 0; gets rates
 
-    type(pose_t) :: pose
-    type(kinematic_coefficients_t), allocatable :: per(:)
-    type(kinematic_coefficients_t) :: now
+    type(linkage_instant_t) :: instant
     type(dense_factor_t) :: factor
     real(wp) :: by(size(rates), size(rates))
     logical :: found
     integer :: f, k, l
 
     f = size(rates)
-    call find_state(self, state, pose, per, now, found)
+    call find_state(self, state, instant, found)
     do k = 1, f
       do l = 1, f
-        by(k, l) = rate_of_drive(self, pose, per(l), self%free(k))
+        by(k, l) = rate_of_drive(self, instant%pose, instant%per(l), self%free(k))
       end do
     end do
     call factorize(by, factor)
@@ -307,14 +337,12 @@ contains
 
     f = size(self%free)
     rates = 0.0_wp
-    if (allocated(self%instant)) then
-      call move_alloc(self%instant, instant)
-    else
-      allocate (instant)
-    end if
+    call take_room(self, instant)
     call find_instant(self, time, state, instant, found)
     call move_alloc(instant, self%instant)
     if (.not. found) return
+    self%seen = state
+    self%is_seen = .true.
     associate (instant => self%instant)
       if (allocated(self%loop)) then
         rates = [instant%motion%turn(self%loop%four_bar%body), instant%acceleration, &
@@ -329,41 +357,38 @@ contains
 
   !> Arguments of the loads that turn over with the motion.
   function switches_of_motion(self, state) result(switches)
-    class(moving_linkage_t), intent(in) :: self
+    class(moving_linkage_t), intent(inout) :: self
     real(wp), intent(in) :: state(:)        !! coordinates, rates, work
     real(wp), allocatable :: switches(:, :) !! as of `switches_at`; empty: none, or no position
 
-    type(pose_t) :: pose
-    type(kinematic_coefficients_t), allocatable :: per(:)
-    type(kinematic_coefficients_t) :: now
     logical :: found
 
     allocate (switches(2, 0))
     if (.not. has_switches(self%whole%linkage, self%gear)) return
-    call find_state(self, state, pose, per, now, found)
-    if (found) switches = switches_at(self%whole%linkage, pose, now, self%gear, &
-      rate_of_drive(self, pose, now, 1))
+    call look_at(self, state, found)
+    if (.not. found) return
+    associate (pose => self%instant%pose, now => self%instant%motion)
+      switches = switches_at(self%whole%linkage, pose, self%instant%along, now, self%gear, &
+        rate_of_drive(self, pose, now, 1))
+    end associate
   end function switches_of_motion
 
   !> The longest step in which the course of contacts is seen: no body turns, and no line between
   !! the ends of a distance, by more than `most_turn`; huge without contacts [s].
   function longest_step(self, state) result(step)
-    class(moving_linkage_t), intent(in) :: self
+    class(moving_linkage_t), intent(inout) :: self
     real(wp), intent(in) :: state(:) !! coordinates, rates, work
     real(wp) :: step
 
-    type(pose_t) :: pose
-    type(kinematic_coefficients_t), allocatable :: per(:)
-    type(kinematic_coefficients_t) :: now
     real(wp) :: turn
     logical :: found
     integer :: i
 
     step = huge(step)
-    associate (linkage => self%whole%linkage)
-      if (all(linkage%loads%side == 0)) return
-      call find_state(self, state, pose, per, now, found)
-      if (.not. found) return
+    if (all(self%whole%linkage%loads%side == 0)) return
+    call look_at(self, state, found)
+    if (.not. found) return
+    associate (linkage => self%whole%linkage, pose => self%instant%pose, now => self%instant%motion)
       turn = maxval(abs(now%turn))
       do i = 1, size(linkage%loads)
         if (linkage%loads(i)%side /= 0) turn = max(turn, line_turn(linkage, pose, now, &
@@ -401,31 +426,29 @@ contains
 
   !> How deep stops and springs of one side are pressed.
   function contacts_of_motion(self, state) result(contacts)
-    class(moving_linkage_t), intent(in) :: self
+    class(moving_linkage_t), intent(inout) :: self
     real(wp), intent(in) :: state(:)        !! coordinates, rates, work
     real(wp), allocatable :: contacts(:, :) !! (3, contacts) depth, its rate, width; empty: none, or
                                             !! no position
 
-    type(pose_t) :: pose
-    type(kinematic_coefficients_t), allocatable :: per(:)
-    type(kinematic_coefficients_t) :: now
     logical :: found
     integer :: i, n
 
+    n = count(self%whole%linkage%loads%side /= 0)
+    if (n > 0) then
+      call look_at(self, state, found)
+      if (.not. found) n = 0
+    end if
+    allocate (contacts(3, n))
+    if (n == 0) return
     n = 0
-    associate (linkage => self%whole%linkage)
-      if (any(linkage%loads%side /= 0)) then
-        call find_state(self, state, pose, per, now, found)
-        if (found) n = count(linkage%loads%side /= 0)
-      end if
-      allocate (contacts(3, n))
-      if (n == 0) return
-      n = 0
+    associate (linkage => self%whole%linkage, at => self%instant)
       do i = 1, size(linkage%loads)
-        associate (load => linkage%loads(i))
+        associate (load => linkage%loads(i), along => at%along(i))
           if (load%side == 0) cycle
           n = n + 1
-          contacts(:, n) = [contact_depth(linkage, pose, now, load), load%contact]
+          contacts(:, n) = [contact_depth(load, along%value, evaluated_rate(linkage, at%pose, &
+            at%motion, load%along, along)), load%contact]
         end associate
       end do
     end associate
@@ -474,8 +497,7 @@ contains
       self%stop = stop_too_fast
       return
     end if
-    call find_state(self, state, instant%pose, instant%per, instant%motion, found, left, &
-      is_crossing, time)
+    call find_state(self, state, instant, found, left, is_crossing, time)
     if (found) return
     self%stop = merge(stop_at_end, stop_steps, allocated(left))
     if (is_crossing) self%stop = stop_change_point
@@ -626,20 +648,18 @@ contains
     real(wp), intent(in) :: state(:) !! coordinates, rates, work
     real(wp) :: least
 
-    type(pose_t) :: pose
-    type(kinematic_coefficients_t) :: now
-    type(kinematic_coefficients_t), allocatable :: per(:)
+    type(linkage_instant_t) :: at
     real(wp) :: inertia(size(self%free), size(self%free)), right(size(self%free))
     logical :: found
     integer :: k
 
     least = 0.0_wp
-    call find_state(self, state, pose, per, now, found)
+    call find_state(self, state, at, found)
     if (.not. found) return
-    call find_inertia(self%whole%linkage, self%rigid, pose, now, per, inertia, right)
+    call find_inertia(self%whole%linkage, self%rigid, at%pose, at%motion, at%per, inertia, right)
     do k = 1, size(right)
-      inertia(k, k) = inertia(k, k) + self%gear%ratio**2*self%gear%rotor*rate_of_drive(self, pose, &
-        per(k), 1)**2
+      inertia(k, k) = inertia(k, k) + self%gear%ratio**2*self%gear%rotor*rate_of_drive(self, &
+        at%pose, at%per(k), 1)**2
     end do
     least = minval([(inertia(k, k), k=1, size(right))])
   end function least_inertia_of

@@ -72,17 +72,15 @@ contains
     logical, intent(out), optional :: is_found    !! false: this is a change point, and the sample
                                                   !! has time and position only
 
-    type(pose_t) :: pose
-    type(kinematic_coefficients_t), allocatable :: per(:)
-    type(kinematic_coefficients_t) :: now
+    type(linkage_instant_t) :: at
     type(point_coefficients_t) :: point
     type(driven_t) :: driven
     real(wp) :: unit
     logical :: found
     integer :: b, k, p
 
-    associate (linkage => system%whole%linkage)
-      call find_state(system, state, pose, per, now, found)
+    associate (linkage => system%whole%linkage, pose => at%pose, now => at%motion)
+      call find_state(system, state, at, found)
       sample%time = time
       sample%position = position
       if (present(is_found)) is_found = found
@@ -115,7 +113,7 @@ contains
           linkage%pin_force(:, p), sample%pin(:, p))
       end do
       if (size(linkage%loads) > 0) sample%potential = sample%potential + &
-        applied_potential(linkage, pose)
+        applied_potential(linkage, pose, at%along)
     end associate
   end subroutine sample_state
 

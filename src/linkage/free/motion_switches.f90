@@ -1,6 +1,7 @@
 !> Where loads turn over with the motion of a linkage.
 module motion_switches
   use applied_loads, only: load_switches, turns_over
+  use coordinates, only: evaluated_t
   use gears, only: gear_t
   use joint_friction, only: friction_rates, has_friction
   use kinds, only: wp
@@ -26,9 +27,10 @@ contains
 
   !> Velocities of what rubs, of loads, and of the driven body where its gear has losses, over those
   !! within which they turn over smoothly; see `rate_systems`.
-  pure function switches_at(linkage, pose, now, gear, rate) result(switches)
+  pure function switches_at(linkage, pose, along, now, gear, rate) result(switches)
     type(linkage_t), intent(in) :: linkage  !! its frictions and loads
     type(pose_t), intent(in) :: pose        !! positions and directions
+    type(evaluated_t), intent(in) :: along(:) !! (loads) of `evaluate_loads` at this pose
     type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
     type(gear_t), intent(in) :: gear        !! of the first drive
     real(wp), intent(in) :: rate            !! of this drive [rad/s] or [m/s]
@@ -37,7 +39,7 @@ contains
     real(wp), allocatable :: of_loads(:, :)
     integer :: f
 
-    of_loads = load_switches(linkage, pose, now)
+    of_loads = load_switches(linkage, pose, along, now)
     f = 0
     if (has_friction(linkage)) f = size(linkage%frictions)
     allocate (switches(2, f + size(of_loads, 2) + 1))

@@ -1,5 +1,7 @@
 !> The crank positions of a run: each computed once, however often it is written.
 module positions
+  use applied_loads, only: evaluate_loads
+  use coordinates, only: evaluated_t
   use errors, only: error_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
@@ -131,11 +133,16 @@ contains
     type(linkage_t), intent(in) :: linkage !! lengths, pins and dyads
     type(state_t), intent(inout) :: state  !! with its crank angle, and the time of an instant
 
+    type(evaluated_t), allocatable :: along(:)
+
     allocate (state%pose, state%coefficients)
     call find_moving_pose(linkage, state%crank, state%pose, state%error)
     state%pose%has_time = allocated(state%time)
     if (allocated(state%time)) state%pose%time = state%time
-    if (.not. allocated(state%error)) call refuse_beyond_tables(linkage, state%pose, state%error)
+    if (.not. allocated(state%error)) then
+      call evaluate_loads(linkage, state%pose, along)
+      call refuse_beyond_tables(linkage, state%pose, along, state%error)
+    end if
     if (.not. allocated(state%error)) state%coefficients = &
       find_kinematic_coefficients(linkage, state%pose)
   end subroutine find_state

@@ -3,8 +3,8 @@
 module applied_loads
   use applied_load_types, only: acts_always, applied_load_t, applies_along, applies_couple, &
     applies_force, over_nothing
-  use coordinate_types, only: coordinate_t, is_angle, is_sum, terminal_t, wrench_t
-  use coordinates, only: coordinate_rate, coordinate_wrenches
+  use coordinate_types, only: coordinate_t, is_angle, is_sum, terminal_t
+  use coordinates, only: evaluate, evaluated_rate, evaluated_t
   use inertia_loads, only: load_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -17,12 +17,27 @@ module applied_loads
   implicit none (type, external)
   private
 
-  public :: add_conservative_loads, add_prescribed_loads, add_standing_loads, add_moving_loads, &
-    is_moving, moving_force, moving_couple, forced_places, forces_at_places, &
+  public :: evaluate_loads, add_conservative_loads, add_prescribed_loads, add_standing_loads, &
+    add_moving_loads, is_moving, moving_force, moving_couple, forced_places, forces_at_places, &
     applied_potential, generalised_force, has_standing_loads, has_moving_loads, &
     standing_pulls, moving_pulls, spring_scale, load_switches, turns_over
 
 contains
+
+  !> The coordinates of all loads along one, at a pose: for all that is asked of these loads there.
+  pure subroutine evaluate_loads(linkage, pose, along)
+    type(linkage_t), intent(in) :: linkage !! its loads
+    type(pose_t), intent(in) :: pose       !! positions and directions
+    type(evaluated_t), allocatable, intent(inout) :: along(:) !! (loads); new, or of another pose
+
+    integer :: i
+
+    if (.not. allocated(along)) allocate (along(load_count(linkage)))
+    do i = 1, size(along)
+      if (linkage%loads(i)%kind == applies_along) call evaluate(linkage, pose, &
+        linkage%loads(i)%along, along(i))
+    end do
+  end subroutine evaluate_loads
 
   !> Whether any load is there at rest.
   pure function has_standing_loads(linkage) result(has)
@@ -92,9 +107,10 @@ contains
   end function is_moving
 
   !> Adds springs and constant forces.
-  pure subroutine add_conservative_loads(linkage, pose, body_load, pin_load)
+  pure subroutine add_conservative_loads(linkage, pose, along, body_load, pin_load)
     type(linkage_t), intent(in) :: linkage          !! its loads
     type(pose_t), intent(in) :: pose                !! positions and directions
+    type(evaluated_t), intent(in) :: along(:)       !! (loads) of `evaluate_loads` at this pose
     type(load_t), intent(inout) :: body_load(:)     !! (bodies) about their first pins
     real(wp), intent(inout) :: pin_load(:, :)       !! (2, pins) [N]
 
@@ -106,8 +122,8 @@ contains
         if (load%kind == applies_force) then
           call add_force(pose, load%at, load%force, body_load, pin_load)
         else
-          call add_effort(linkage, pose, load%along, -standing_pull(linkage, pose, load), &
-            body_load, pin_load)
+          call add_effort(linkage, pose, load%along, along(i), -standing_pull(load, &
+            along(i)%value), body_load, pin_load)
         end if
       end associate
     end do
@@ -137,13 +153,14 @@ contains
   end subroutine add_prescribed_loads
 
   !> Adds all that a pose determines: springs, and loads that a table or their body determines.
-  pure subroutine add_standing_loads(linkage, pose, body_load, pin_load)
+  pure subroutine add_standing_loads(linkage, pose, along, body_load, pin_load)
     type(linkage_t), intent(in) :: linkage          !! its loads
     type(pose_t), intent(in) :: pose                !! with the coordinate of the first drive
+    type(evaluated_t), intent(in) :: along(:)       !! (loads) of `evaluate_loads` at this pose
     type(load_t), intent(inout) :: body_load(:)     !! (bodies) about their first pins
     real(wp), intent(inout) :: pin_load(:, :)       !! (2, pins) [N]
 
-    call add_conservative_loads(linkage, pose, body_load, pin_load)
+    call add_conservative_loads(linkage, pose, along, body_load, pin_load)
     call add_prescribed_loads(linkage, pose, body_load, pin_load)
   end subroutine add_standing_loads
 
@@ -197,9 +214,10 @@ contains
 
   !> Adds what depends on the motion: dampers, resistances, and loads that act in one direction of
   !! the motion only.
-  pure subroutine add_moving_loads(linkage, pose, now, body_load, pin_load)
+  pure subroutine add_moving_loads(linkage, pose, along, now, body_load, pin_load)
     type(linkage_t), intent(in) :: linkage          !! its loads
     type(pose_t), intent(in) :: pose                !! with the coordinate of the first drive
+    type(evaluated_t), intent(in) :: along(:)       !! (loads) of `evaluate_loads` at this pose
     type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
     type(load_t), intent(inout) :: body_load(:)     !! (bodies) about their first pins
     real(wp), intent(inout) :: pin_load(:, :)       !! (2, pins) [N]
@@ -216,8 +234,9 @@ contains
           body_load(load%at%body)%moment = body_load(load%at%body)%moment + &
             moving_couple(linkage, pose, now, load)
         case default
-          call add_effort(linkage, pose, load%along, -moving_pull(linkage, pose, &
-            coordinate_rate(linkage, pose, now, load%along), load), body_load, pin_load)
+          call add_effort(linkage, pose, load%along, along(i), -moving_pull(load, &
+            along(i)%value, evaluated_rate(linkage, pose, now, load%along, along(i))), body_load, &
+            pin_load)
         end select
       end associate
     end do
@@ -260,9 +279,9 @@ contains
 
   !> What the position determines of the pulls of springs and stops; 0 of all other loads [N] or
   !! [N m].
-  pure function standing_pulls(linkage, pose) result(pull)
+  pure function standing_pulls(linkage, along) result(pull)
     type(linkage_t), intent(in) :: linkage !! its loads
-    type(pose_t), intent(in) :: pose       !! positions and directions
+    type(evaluated_t), intent(in) :: along(:) !! (loads) of `evaluate_loads`
     real(wp), allocatable :: pull(:)       !! (loads)
 
     integer :: i
@@ -271,16 +290,17 @@ contains
     do i = 1, size(pull)
       associate (load => linkage%loads(i))
         if (is_conservative(load) .and. load%kind == applies_along) pull(i) = &
-          standing_pull(linkage, pose, load)
+          standing_pull(load, along(i)%value)
       end associate
     end do
   end function standing_pulls
 
   !> What the rates of springs, dampers and stops add to their pulls; 0 of all other loads [N] or
   !! [N m].
-  pure function moving_pulls(linkage, pose, now) result(pull)
+  pure function moving_pulls(linkage, pose, along, now) result(pull)
     type(linkage_t), intent(in) :: linkage !! its loads
     type(pose_t), intent(in) :: pose       !! positions and directions
+    type(evaluated_t), intent(in) :: along(:) !! (loads) of `evaluate_loads` at this pose
     type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
     real(wp), allocatable :: pull(:)       !! (loads)
 
@@ -289,8 +309,8 @@ contains
     allocate (pull(load_count(linkage)), source=0.0_wp)
     do i = 1, size(pull)
       associate (load => linkage%loads(i))
-        if (is_moving(load) .and. load%kind == applies_along) pull(i) = moving_pull(linkage, &
-          pose, coordinate_rate(linkage, pose, now, load%along), load)
+        if (is_moving(load) .and. load%kind == applies_along) pull(i) = moving_pull(load, &
+          along(i)%value, evaluated_rate(linkage, pose, now, load%along, along(i)))
       end associate
     end do
   end function moving_pulls
@@ -305,9 +325,10 @@ contains
 
   !> Potential energy of springs, 0 unloaded, and of constant forces, 0 with their places at the
   !! global origin [J].
-  pure function applied_potential(linkage, pose) result(energy)
+  pure function applied_potential(linkage, pose, along) result(energy)
     type(linkage_t), intent(in) :: linkage !! its loads
     type(pose_t), intent(in) :: pose       !! positions and directions
+    type(evaluated_t), intent(in) :: along(:) !! (loads) of `evaluate_loads` at this pose
     real(wp) :: energy
 
     integer :: i
@@ -320,7 +341,7 @@ contains
           energy = energy - dot_product(load%force, terminal_place(linkage, pose, load%at) + &
             pose%origin)
         else
-          energy = energy + pull_energy(linkage, pose, load)
+          energy = energy + pull_energy(load, along(i)%value)
         end if
       end associate
     end do
@@ -334,41 +355,45 @@ contains
     type(kinematic_coefficients_t), intent(in) :: per !! velocities per rate of the coordinate
     real(wp) :: scale
 
+    type(evaluated_t), allocatable :: along(:)
     integer :: i
 
+    call evaluate_loads(linkage, pose, along)
     scale = 0.0_wp
-    do i = 1, size(linkage%loads)
+    do i = 1, size(along)
       associate (load => linkage%loads(i))
         if (.not. is_conservative(load) .or. load%kind /= applies_along) cycle
-        scale = scale + pull_scale(linkage, pose, load)*work_scale(linkage, pose, per, load%along)
+        scale = scale + pull_scale(load, along(i)%value)*work_scale(linkage, pose, per, &
+          load%along, along(i))
       end associate
     end do
   end function spring_scale
 
   !> Sum of the magnitudes of the works of an effort of 1 along a coordinate.
-  pure recursive function work_scale(linkage, pose, per, coordinate) result(scale)
+  pure recursive function work_scale(linkage, pose, per, coordinate, evaluated) result(scale)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(kinematic_coefficients_t), intent(in) :: per
     type(coordinate_t), intent(in) :: coordinate
+    type(evaluated_t), intent(in) :: evaluated
     real(wp) :: scale
 
-    type(wrench_t) :: wrench(2)
+    type(evaluated_t) :: term
     integer :: i
 
     scale = 0.0_wp
     if (coordinate%kind == is_sum) then
       do i = 1, size(coordinate%term)
+        call evaluate(linkage, pose, linkage%coordinates(coordinate%term(i)), term)
         scale = scale + abs(coordinate%weight(i))*work_scale(linkage, pose, per, &
-          linkage%coordinates(coordinate%term(i)))
+          linkage%coordinates(coordinate%term(i)), term)
       end do
       return
     end if
-    wrench = coordinate_wrenches(linkage, pose, coordinate)
     do i = 1, 2
-      associate (at => coordinate%at(i))
-        scale = scale + norm2(wrench(i)%force)*norm2(terminal_velocity(linkage, pose, per, at))
-        if (at%body > 0) scale = scale + abs(wrench(i)%couple*per%turn(at%body))
+      associate (at => coordinate%at(i), wrench => evaluated%wrench(i))
+        scale = scale + norm2(wrench%force)*norm2(terminal_velocity(linkage, pose, per, at))
+        if (at%body > 0) scale = scale + abs(wrench%couple*per%turn(at%body))
       end associate
     end do
   end function work_scale
@@ -411,9 +436,10 @@ contains
 
   !> What decides on the direction of loads against the motion, and on the share of those that act
   !! in one direction of it only: the arguments of tanh.
-  pure function load_switches(linkage, pose, now) result(switches)
+  pure function load_switches(linkage, pose, along, now) result(switches)
     type(linkage_t), intent(in) :: linkage        !! its loads
     type(pose_t), intent(in) :: pose              !! positions and directions
+    type(evaluated_t), intent(in) :: along(:)     !! (loads) of `evaluate_loads` at this pose
     type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
     real(wp) :: switches(2, 2*load_count(linkage)) !! of each load the velocity against which it
                                                   !! acts, and that along it; 0: none [-]
@@ -433,7 +459,7 @@ contains
         case (applies_couple)
           velocity = [now%turn(load%at%body), 0.0_wp]
         case default
-          velocity = [coordinate_rate(linkage, pose, now, load%along), 0.0_wp]
+          velocity = [evaluated_rate(linkage, pose, now, load%along, along(i)), 0.0_wp]
         end select
         if (load%resisting > 0.0_wp) switches(:, 2*i - 1) = velocity/load%smooth
         if (load%during /= acts_always) switches(1, 2*i) = along_value(load, velocity, value)
@@ -472,32 +498,34 @@ contains
   end function resistance
 
   !> Adds what an effort along a coordinate puts on pins and bodies.
-  pure recursive subroutine add_effort(linkage, pose, coordinate, effort, body_load, pin_load)
+  pure recursive subroutine add_effort(linkage, pose, coordinate, evaluated, effort, body_load, &
+    pin_load)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(coordinate_t), intent(in) :: coordinate
+    type(evaluated_t), intent(in) :: evaluated
     real(wp), intent(in) :: effort !! [N] or [N m]
     type(load_t), intent(inout) :: body_load(:)
     real(wp), intent(inout) :: pin_load(:, :)
 
-    type(wrench_t) :: wrench(2)
+    type(evaluated_t) :: term
     integer :: i
 
     if (coordinate%kind == is_sum) then
       do i = 1, size(coordinate%term)
-        call add_effort(linkage, pose, linkage%coordinates(coordinate%term(i)), &
+        call evaluate(linkage, pose, linkage%coordinates(coordinate%term(i)), term)
+        call add_effort(linkage, pose, linkage%coordinates(coordinate%term(i)), term, &
           coordinate%weight(i)*effort, body_load, pin_load)
       end do
       return
     end if
-    wrench = coordinate_wrenches(linkage, pose, coordinate)
     do i = 1, 2
-      associate (at => coordinate%at(i))
+      associate (at => coordinate%at(i), wrench => evaluated%wrench(i))
         if (at%body == 0 .and. at%pin == 0) cycle
-        if (coordinate%kind /= is_angle) call add_force(pose, at, effort*wrench(i)%force, &
+        if (coordinate%kind /= is_angle) call add_force(pose, at, effort*wrench%force, &
           body_load, pin_load)
         if (at%body > 0) body_load(at%body)%moment = body_load(at%body)%moment + &
-          effort*wrench(i)%couple
+          effort*wrench%couple
       end associate
     end do
   end subroutine add_effort

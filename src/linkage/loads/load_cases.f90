@@ -3,7 +3,8 @@
 !! speed is in `running_loads`.
 module load_cases
   use acceleration_fields, only: acceleration_field_t, find_unit_field
-  use applied_loads, only: add_standing_loads, forces_at_places, has_standing_loads
+  use applied_loads, only: add_standing_loads, evaluate_loads, forces_at_places, has_standing_loads
+  use coordinates, only: evaluated_t
   use inertia_loads, only: distributed_load, load_t, lumped_load, pin_load
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -93,9 +94,11 @@ contains
     type(load_case_t), intent(inout) :: constant
 
     type(load_t) :: body_loads(size(linkage%bodies))
+    type(evaluated_t), allocatable :: along(:)
     integer :: b
 
-    call add_standing_loads(linkage, pose, body_loads, constant%pin_force)
+    call evaluate_loads(linkage, pose, along)
+    call add_standing_loads(linkage, pose, along, body_loads, constant%pin_force)
     constant%couple = constant%couple + body_loads%moment
     constant%place_force = forces_at_places(linkage, pose)
     allocate (constant%body_force(2, size(body_loads)))

@@ -1,17 +1,18 @@
 !> Tables of loads: over what coordinate of the linkage they are, where they end, after how much of
 !! the first drive they repeat.
 module load_tables
-  use applied_load_types, only: applied_load_t, applies_along, over_coordinate, over_nothing, &
-    over_time
+  use applied_load_types, only: applied_load_t, applies_along, is_torsional, over_coordinate, &
+    over_nothing, over_time
   use constants, only: degree
-  use coordinates, only: coordinate_value, is_turning
+  use coordinate_types, only: is_angle, is_sum
+  use coordinates, only: coordinate_value, evaluated_t, is_turning
   use cubic_splines, only: spline_values
   use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
   use group_equations, only: drive_rate
   use linkages, only: linkage_t
   use pose_types, only: pose_t
-  use pulls, only: counts_turns, jumps
+  use pulls, only: counts_turns, deflection
   use text, only: to_string
   implicit none (type, external)
   private
@@ -21,13 +22,17 @@ module load_tables
   !> By how much rounding may put a coordinate beyond the ends of a table, of its length.
   real(wp), parameter :: slack = 1.0e-12_wp
 
+  !> Largest angle between a torsional spring and its rest; its sign changes at a half turn [rad].
+  real(wp), parameter :: most_deflection = 170.0_wp*degree
+
 contains
 
   !> Refuses a pose beyond the ends of a table, or with a torsional spring near half a turn from its
   !! rest, where its torque would jump.
-  pure subroutine refuse_beyond_tables(linkage, pose, error)
+  pure subroutine refuse_beyond_tables(linkage, pose, along, error)
     type(linkage_t), intent(in) :: linkage !! its loads
     type(pose_t), intent(in) :: pose       !! with the coordinate of the first drive
+    type(evaluated_t), intent(in) :: along(:) !! (loads) of `evaluate_loads` at this pose
     type(error_t), allocatable, intent(inout) :: error !! allocated if there is such a table or
                                                        !! spring
 
@@ -35,11 +40,10 @@ contains
     real(wp) :: x, first, last
     integer :: i
 
-    if (.not. allocated(linkage%loads)) return
-    do i = 1, size(linkage%loads)
+    do i = 1, size(along)
       associate (load => linkage%loads(i))
         if (load%kind == applies_along) then
-          if (jumps(linkage, pose, load)) then
+          if (jumps(linkage, pose, load, along(i)%value)) then
             words = "a torsional spring"
             if (load%side /= 0) words = "the angle of '"//load%name//"'"
             call set_error(error, error_of_numerics, words//" is turned by nearly "// &
@@ -73,6 +77,30 @@ contains
       end associate
     end do
   end subroutine refuse_beyond_tables
+
+  !> Whether an angle is so near to half a turn from the rest of a load, or one of a sum to half a
+  !! turn, that its pull would jump.
+  pure function jumps(linkage, pose, load, value) result(does)
+    type(linkage_t), intent(in) :: linkage   !! of the coordinate
+    type(pose_t), intent(in) :: pose         !! positions and directions
+    type(applied_load_t), intent(in) :: load !! along a coordinate
+    real(wp), intent(in) :: value            !! of this [m] or [rad]
+    logical :: does
+
+    integer :: i
+
+    does = .false.
+    if (.not. load%stiffness > 0.0_wp) return
+    if (is_torsional(load) .and. .not. counts_turns(load)) does = abs(deflection(load, &
+      value)) > most_deflection
+    if (load%along%kind /= is_sum) return
+    do i = 1, size(load%along%term)
+      associate (term => linkage%coordinates(load%along%term(i)))
+        if (term%kind /= is_angle .or. term%drive > 0) cycle
+        does = does .or. abs(coordinate_value(linkage, pose, term)) > most_deflection
+      end associate
+    end do
+  end function jumps
 
   !> After how much of the first drive's angle positions and loads repeat: a whole number of periods
   !! of the positions [deg]; 0: they do not.

@@ -1,7 +1,9 @@
 !> Loads that depend on the speed of a running linkage otherwise than as its square: dampers,
 !! resistances, loads that act in one direction of the motion, and friction in the joints.
 module running_loads
-  use applied_loads, only: add_moving_loads, generalised_force, has_moving_loads, moving_pulls
+  use applied_loads, only: add_moving_loads, evaluate_loads, generalised_force, has_moving_loads, &
+    moving_pulls
+  use coordinates, only: evaluated_t
   use ground_loads, only: pulls_on_ground
   use inertia_loads, only: load_t
   use joint_forces, only: add_scaled, find_joint_forces, joint_forces_t
@@ -80,6 +82,7 @@ contains
 
     type(kinematic_coefficients_t) :: now
     type(joint_forces_t) :: without(case_count + 1)
+    type(evaluated_t), allocatable :: along(:)
     integer :: i
 
     allocate (running%body_load(size(linkage%bodies)), running%pin_load(2, &
@@ -87,8 +90,10 @@ contains
     running%pin_load = 0.0_wp
     if (has_moving_loads(linkage)) then
       now = velocities_at(coefficients, speed)
-      call add_moving_loads(linkage, pose, now, running%body_load, running%pin_load)
-      running%on_ground = pulls_on_ground(linkage, pose, moving_pulls(linkage, pose, now))
+      call evaluate_loads(linkage, pose, along)
+      call add_moving_loads(linkage, pose, along, now, running%body_load, running%pin_load)
+      running%on_ground = pulls_on_ground(linkage, pose, along, moving_pulls(linkage, pose, along, &
+        now))
     end if
     if (present(divided)) then
       running%joints = divided%moving

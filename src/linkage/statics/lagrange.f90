@@ -3,9 +3,10 @@
 !!
 !! The torque required for a motion follows from energies alone, without any pin force.
 module lagrange
-  use applied_loads, only: add_standing_loads, applied_potential, generalised_force, &
-    has_standing_loads
+  use applied_loads, only: add_standing_loads, applied_potential, evaluate_loads, &
+    generalised_force, has_standing_loads
   use body_points, only: find_point_coefficients, point_coefficients_t
+  use coordinates, only: evaluated_t
   use inertia_loads, only: load_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -75,11 +76,13 @@ contains
 
     type(load_t) :: body_load(size(linkage%bodies))
     real(wp) :: pin_load(2, size(linkage%is_ground))
+    type(evaluated_t), allocatable :: along(:)
 
     pin_load = 0.0_wp
-    call add_standing_loads(linkage, pose, body_load, pin_load)
+    call evaluate_loads(linkage, pose, along)
+    call add_standing_loads(linkage, pose, along, body_load, pin_load)
     terms%load = terms%load - generalised_force(linkage, coefficients, body_load, pin_load)
-    terms%potential = terms%potential + applied_potential(linkage, pose)
+    terms%potential = terms%potential + applied_potential(linkage, pose, along)
   end subroutine add_applied_loads
 
   !> Adds a mass that moves without rotating.

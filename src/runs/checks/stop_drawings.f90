@@ -3,6 +3,7 @@
 module stop_drawings
   use applied_load_types, only: is_torsional
   use constants, only: degree
+  use coordinates, only: coordinate_value
   use deck_lengths, only: length_text
   use diagnostics, only: add_warning, diagnostics_t
   use kinds, only: wp
@@ -42,7 +43,7 @@ contains
         associate (load => linkage%loads(size(linkage%loads) - size(model%stops) + i))
           ! Of a drawing nobody knows where drives are.
           if (load%along%drive > 0) cycle
-          depth = load%side*deflection(linkage, pose, load)
+          depth = load%side*deflection(load, coordinate_value(linkage, pose, load%along))
           if (is_torsional(load)) then
             if (depth <= rough) cycle
             words = to_string(depth/degree, 3)//" deg"

@@ -45,7 +45,7 @@ contains
                                            !! [rad/s²], or [m/s] and [m/s²]
     type(coordinate_state_t) :: state
 
-    real(wp) :: per
+    real(wp) :: per, value
     integer :: i
 
     associate (coordinate => linkage%coordinates(number), speed => rates(1), &
@@ -65,8 +65,9 @@ contains
     do i = 1, size(linkage%loads)
       associate (load => linkage%loads(i))
         if (load%coordinate /= number) cycle
-        state%effort = state%effort - standing_pull(linkage, pose, load) - moving_pull(linkage, &
-          pose, state%rate, load)
+        value = coordinate_value(linkage, pose, load%along)
+        state%effort = state%effort - standing_pull(load, value) - moving_pull(load, value, &
+          state%rate)
       end associate
     end do
     state%power = state%effort*state%rate

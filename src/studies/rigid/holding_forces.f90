@@ -1,7 +1,8 @@
 !> What the first drive would have to give to hold a linkage at rest.
 module holding_forces
-  use applied_loads, only: spring_scale
+  use applied_loads, only: evaluate_loads, spring_scale
   use constants, only: degree
+  use coordinates, only: evaluated_rate, evaluated_t
   use kinds, only: wp
   use lagrange, only: find_lagrange, lagrange_t
   use linkages, only: drive_of_angle, linkage_t
@@ -103,6 +104,7 @@ contains
     real(wp) :: distance          !! huge without contacts
 
     type(state_t) :: state
+    type(evaluated_t), allocatable :: along(:)
     real(wp) :: depth(2)
     integer :: i
 
@@ -111,10 +113,12 @@ contains
     state%crank = crank
     call find_state(self%linkage, state)
     if (allocated(state%error)) return
-    do i = 1, size(self%linkage%loads)
+    call evaluate_loads(self%linkage, state%pose, along)
+    do i = 1, size(along)
       associate (load => self%linkage%loads(i))
         if (load%side == 0) cycle
-        depth = contact_depth(self%linkage, state%pose, state%coefficients, load)
+        depth = contact_depth(load, along(i)%value, evaluated_rate(self%linkage, state%pose, &
+          state%coefficients, load%along, along(i)))
         if (self%linkage%drives(1)%kind == drive_of_angle) depth(2) = depth(2)*degree
         if (abs(depth(2)) > 0.0_wp) distance = min(distance, min(abs(depth(1)), abs(depth(1) - &
           load%contact))/abs(depth(2)))

@@ -8,8 +8,9 @@
 !> Forces in the joints of any linkage: on every link at every pin, of guides, blocks and welds, of
 !! the drives, those that shake the ground, and all that it bears.
 module joint_study
-  use applied_loads, only: standing_pulls
+  use applied_loads, only: evaluate_loads, standing_pulls
   use constants, only: degree
+  use coordinates, only: evaluated_t
   use elastic_reactions, only: elastic_division_t, least_open, self_stresses
   use errors, only: error_t, outcome_t
   use frame_forces, only: find_frame_load
@@ -120,6 +121,7 @@ contains
       type(position_loads_t) :: loads
       type(running_t) :: running
       type(error_t), allocatable :: failure
+      type(evaluated_t), allocatable :: along(:)
       real(wp) :: acceleration
       integer :: k
 
@@ -157,8 +159,9 @@ contains
         found%running_frame(:, k, i) = find_frame_load(linkage, state%pose, running%joints) + &
           running%on_ground
       end do
+      call evaluate_loads(linkage, state%pose, along)
       found%frame(:, constant_case, i) = found%frame(:, constant_case, i) + &
-        pulls_on_ground(linkage, state%pose, standing_pulls(linkage, state%pose))
+        pulls_on_ground(linkage, state%pose, along, standing_pulls(linkage, along))
       call turn_guides(linkage, found%joints, state%pose%direction, found%running_force(:, :, :, &
         i))
       call add_blocks(linkage, found%joints, state%coefficients, found%force(:, :, :, i))
