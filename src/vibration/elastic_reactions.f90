@@ -10,9 +10,10 @@ module elastic_reactions
   use deformation_model, only: deformation_model_t, new_deformation_model
   use elastic_linkages, only: elastic_linkage_t, new_elastic_linkage, shared_pin
   use errors, only: error_of_input, error_t, set_error
+  use group_factors, only: factorize_groups, group_factors_t
   use inertia_loads, only: load_t, lumped_masses, lumped_stations
   use joint_forces, only: add_scaled, find_joint_forces, joint_forces_t, no_joint_forces
-  use joint_friction, only: force_in_joint, has_friction, put_friction
+  use joint_friction, only: find_rubbing, force_in_joint, has_friction, put_friction, rubbing_t
   use kinematic_coefficients, only: kinematic_coefficients_t
   use kinds, only: wp
   use linkages, only: body_t, cross, drive_of_angle, forced_place_t, linkage_t, lump_t
@@ -321,6 +322,8 @@ contains
 
     type(part_loads_t) :: loads
     type(load_t) :: body_load(size(division%structure%linkage%bodies))
+    type(group_factors_t), allocatable :: factors(:)
+    type(rubbing_t), allocatable :: rubbing(:)
     real(wp) :: pin_load(2, size(division%structure%linkage%is_ground))
     real(wp), allocatable :: effort(:)
     integer :: k
@@ -331,11 +334,13 @@ contains
         return
       end if
       allocate (joints(size(linkage%frictions)), effort(size(linkage%frictions)))
+      call factorize_groups(linkage, at%pose, factors)
+      call find_rubbing(linkage, at%pose, rubbing)
       do k = 1, size(joints)
         effort = 0.0_wp
         effort(k) = 1.0_wp
-        call put_friction(linkage, at%pose, effort, body_load, pin_load)
-        joints(k) = find_joint_forces(linkage, at%pose, body_load, pin_load)
+        call put_friction(linkage, at%pose, rubbing, effort, body_load, pin_load)
+        joints(k) = find_joint_forces(linkage, at%pose, body_load, pin_load, factors)
         loads = no_part_loads(at%here%elastic)
         call add_friction_effort(linkage, at%pose, k, at%here%elastic, at%here%pose, loads)
         call find_effort_forces(division, at, loads, joints(k))

@@ -13,6 +13,7 @@ module axial_forces
   use acceleration_fields, only: acceleration_field_t, point_acceleration
   use beam_mesh, only: beam_mesh_t, element_count, element_length
   use body_lumps, only: force_functions_of, has_turning_lumps, lump_count
+  use group_factors, only: factorize_groups, group_factors_t
   use inertia_loads, only: load_t, lumped_masses, lumped_stations
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
@@ -251,6 +252,7 @@ contains
 
     type(load_t) :: loads(size(linkage%bodies))
     type(joint_forces_t) :: joints
+    type(group_factors_t), allocatable :: factors(:)
     real(wp), allocatable :: jump(:)
     real(wp) :: pin_loads(2, size(linkage%pin_mass))
     integer :: b, i
@@ -259,11 +261,12 @@ contains
       size(linkage%bodies), case_count))
     if (.not. any(unit_loads%occurs)) return
     force = 0.0_wp
+    call factorize_groups(linkage, pose, factors)
     do i = 1, case_count
       if (.not. unit_loads%occurs(i)) cycle
       associate (case => unit_loads%of_case(i))
         call find_case_loads(linkage, spread(0, 1, size(loads)), pose, case, loads, pin_loads)
-        joints = find_joint_forces(linkage, pose, loads, pin_loads)
+        joints = find_joint_forces(linkage, pose, loads, pin_loads, factors)
         do b = 1, size(linkage%bodies)
           if (linkage%bodies(b)%bends) then
             force(:3, b, i) = link_axial_force(linkage, b, pose, case%field, joints)

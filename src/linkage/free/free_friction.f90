@@ -5,8 +5,8 @@ module free_friction
     new_free_equations
   use inertia_loads, only: load_t
   use joint_forces, only: joint_forces_t
-  use joint_friction, only: coulomb_efforts, find_normal_forces, finish_friction, force_in_joint, &
-    friction_rates, friction_t, put_friction
+  use joint_friction, only: coulomb_efforts, find_normal_forces, find_rubbing, finish_friction, &
+    force_in_joint, friction_rates, friction_t, put_friction
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use pose_types, only: pose_t
@@ -55,11 +55,12 @@ contains
     associate (linkage => whole%linkage, rubs => whole%linkage%frictions)
       call new_free_equations(whole, rigid, pose, per, inertia, equations)
       bent = bent_motion(whole, pose, now, equations)
-      friction%rate = friction_rates(linkage, pose, now, 1.0_wp)
+      call find_rubbing(linkage, pose, friction%rubbing)
+      friction%rate = friction_rates(linkage, pose, friction%rubbing, now)
       coulomb = coulomb_efforts(rubs, friction%rate)
       viscous = -rubs%viscous*friction%rate
       allocate (loads%body(size(linkage%bodies)), loads%pin(2, size(linkage%is_ground)))
-      call put_friction(linkage, pose, viscous, loads%body, loads%pin)
+      call put_friction(linkage, pose, friction%rubbing, viscous, loads%body, loads%pin)
       call add_free_loads(whole, rigid, pose, bent, body_load, pin_load, loads)
       joints = forces_of_loads(whole, pose, per, equations, loads, drive_force - &
         inertia*drive_acceleration(whole, pose, 1, bent))
@@ -67,8 +68,8 @@ contains
         base(:, k) = force_in_joint(linkage, joints, rubs(k))
       end do
       do j = 1, size(rubs)
-        call put_friction(linkage, pose, merge(coulomb, 0.0_wp, [(i == j, i=1, size(rubs))]), &
-          loads%body, loads%pin)
+        call put_friction(linkage, pose, friction%rubbing, merge(coulomb, 0.0_wp, [(i == j, i=1, &
+          size(rubs))]), loads%body, loads%pin)
         joints = forces_of_loads(whole, pose, per, equations, loads, 0.0_wp)
         do k = 1, size(rubs)
           influence(:, k, j) = force_in_joint(linkage, joints, rubs(k))

@@ -19,6 +19,7 @@ module linkage_rates
   use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
   use gears, only: driven_by, gear_share, gear_t, reflected_inertia
   use group_equations, only: drive_rate
+  use group_factors, only: factorize_groups, group_factors_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, find_velocities, &
     kinematic_coefficients_t
@@ -126,6 +127,7 @@ contains
 
     type(dense_factor_t) :: factor
     type(error_t), allocatable :: error
+    type(group_factors_t), allocatable :: factors(:)
     real(wp) :: direction(size(self%free))
     type(curve_point_t) :: point
     integer :: f, k
@@ -171,12 +173,15 @@ contains
       found = .not. allocated(error)
       if (present(left) .and. .not. found) call move_alloc(error, left)
       if (.not. found) return
-      now = find_kinematic_coefficients(linkage, pose, rates_of_drives(self, state(f + 1:2*f)))
+      call factorize_groups(linkage, pose, factors)
+      now = find_kinematic_coefficients(linkage, pose, rates_of_drives(self, state(f + 1:2*f)), &
+        factors)
       allocate (instant%per(f))
       do k = 1, f
         direction = 0.0_wp
         direction(k) = 1.0_wp
-        call find_velocities(linkage, pose, rates_of_drives(self, direction), instant%per(k))
+        call find_velocities(linkage, pose, rates_of_drives(self, direction), instant%per(k), &
+          factors)
       end do
     end associate
   end subroutine find_state

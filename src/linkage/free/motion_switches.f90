@@ -3,7 +3,7 @@ module motion_switches
   use applied_loads, only: load_switches, turns_over
   use coordinates, only: evaluated_t
   use gears, only: gear_t
-  use joint_friction, only: friction_rates, has_friction
+  use joint_friction, only: find_rubbing, friction_rates, has_friction, rubbing_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: linkage_t
@@ -36,6 +36,7 @@ contains
     real(wp), intent(in) :: rate            !! of this drive [rad/s] or [m/s]
     real(wp), allocatable :: switches(:, :) !! (2, frictions, loads twice, gear) [-]
 
+    type(rubbing_t), allocatable :: rubbing(:)
     real(wp), allocatable :: of_loads(:, :)
     integer :: f
 
@@ -44,8 +45,10 @@ contains
     if (has_friction(linkage)) f = size(linkage%frictions)
     allocate (switches(2, f + size(of_loads, 2) + 1))
     switches = 0.0_wp
-    if (f > 0) switches(1, :f) = friction_rates(linkage, pose, now, 1.0_wp)/ &
-      linkage%frictions%smooth
+    if (f > 0) then
+      call find_rubbing(linkage, pose, rubbing)
+      switches(1, :f) = friction_rates(linkage, pose, rubbing, now)/linkage%frictions%smooth
+    end if
     switches(:, f + 1:f + size(of_loads, 2)) = of_loads
     if (gear%efficiency < 1.0_wp) switches(1, size(switches, 2)) = rate/gear%smooth
   end function switches_at

@@ -1,7 +1,8 @@
 !> Scaled determinants of groups at any pose: zero at a dead point; their signs are the branches.
 module group_determinants
-  use dense_factor, only: dense_factor_t, least_singular_value
-  use group_equations, only: factorize_group, line_axis
+  use dense_factor, only: least_singular_value
+  use group_equations, only: line_axis
+  use group_factors, only: factorize_group, group_factors_t
   use kinds, only: wp
   use linkages, only: cross, group_by_newton, group_cross_slide, group_driven_dyad, &
     group_dyad, group_on_line, group_through_pin, group_two_lines, linkage_t
@@ -37,8 +38,7 @@ contains
     integer, intent(in) :: number          !! of the group, from 1
     real(wp) :: determinant
 
-    type(dense_factor_t) :: factor
-    real(wp), allocatable :: scales(:)
+    type(group_factors_t) :: factors
     real(wp) :: way(2)
 
     determinant = 1.0_wp
@@ -58,9 +58,8 @@ contains
         determinant = cross(line_axis(linkage, pose, group%slider(1)), line_axis(linkage, pose, &
           group%slider(2)))
       case (group_by_newton)
-        allocate (scales(size(group%bodies)))
-        call factorize_group(linkage, group, pose, factor, scales)
-        determinant = least_singular_value(factor)/group%usual
+        call factorize_group(linkage, group, pose, factors)
+        determinant = least_singular_value(factors%factor)/group%usual
       end select
     end associate
   end function determinant_of

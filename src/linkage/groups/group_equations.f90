@@ -17,7 +17,6 @@
 !! velocities and accelerations, and, transposed, the forces.
 module group_equations
   use constants, only: degree
-  use dense_factor, only: dense_factor_t, factorize
   use kinds, only: wp
   use linkages, only: body_t, cross, demand_angle, demand_drive, demand_length, demand_line, &
     demand_turn, drive_of_angle, drive_of_length, drive_of_slider, equation_t, group_t, &
@@ -28,8 +27,7 @@ module group_equations
   private
 
   public :: gradient_t, find_gradient, misfit_of, curvature_of, drive_rate, drive_value, &
-    find_rates_of_drives, drive_direction, direction_at, unknowns_of, column_scales, &
-    group_matrix, factorize_group, &
+    find_rates_of_drives, drive_direction, direction_at, unknowns_of, &
     world_line, line_axis, line_offset, farthest_arm
 
   !> Derivatives of an equation by the positions of up to two pins and the angles of up to two
@@ -393,20 +391,6 @@ contains
     number = 2*size(group%pins) + size(group%bodies)
   end function unknowns_of
 
-  !> Lengths with which the angles of the bodies of a group are multiplied, so that all its unknowns
-  !! are lengths: the farthest of their pins [m].
-  pure function column_scales(linkage, group) result(scales)
-    type(linkage_t), intent(in) :: linkage !! its bodies
-    type(group_t), intent(in) :: group     !! of this linkage
-    real(wp) :: scales(size(group%bodies))
-
-    integer :: b
-
-    do b = 1, size(group%bodies)
-      scales(b) = farthest_arm(linkage%bodies(group%bodies(b)))
-    end do
-  end function column_scales
-
   !> Distance of the farthest pin of a body from its first one [m].
   pure function farthest_arm(body) result(arm)
     type(body_t), intent(in) :: body !! with its pins
@@ -419,42 +403,5 @@ contains
       arm = max(arm, norm2(body%further(i)%place))
     end do
   end function farthest_arm
-
-  !> Gradients of the equations of a group by its unknowns: pins first, then angles by lengths.
-  pure function group_matrix(linkage, group, pose, scales) result(matrix)
-    type(linkage_t), intent(in) :: linkage !! bodies, sliders, turns and drives
-    type(group_t), intent(in) :: group     !! with equations
-    type(pose_t), intent(in) :: pose       !! pins and directions
-    real(wp), intent(in) :: scales(:)      !! of `column_scales` [m]
-    real(wp) :: matrix(size(group%equations), size(group%equations))
-
-    type(gradient_t) :: gradient
-    integer :: i, k, at, first_angle
-
-    matrix = 0.0_wp
-    first_angle = 2*size(group%pins)
-    do i = 1, size(group%equations)
-      call find_gradient(linkage, group%equations(i), pose, gradient)
-      do k = 1, 2
-        at = findloc(group%pins, gradient%pin(k), dim=1)
-        if (at > 0) matrix(i, 2*at - 1:2*at) = matrix(i, 2*at - 1:2*at) + gradient%by_pin(:, k)
-        at = findloc(group%bodies, gradient%body(k), dim=1)
-        if (at > 0) matrix(i, first_angle + at) = matrix(i, first_angle + at) + &
-          gradient%by_angle(k)/scales(at)
-      end do
-    end do
-  end function group_matrix
-
-  !> Factors of the matrix of a group at a pose.
-  pure subroutine factorize_group(linkage, group, pose, factor, scales)
-    type(linkage_t), intent(in) :: linkage       !! bodies, sliders, turns and drives
-    type(group_t), intent(in) :: group           !! with equations
-    type(pose_t), intent(in) :: pose             !! pins and directions
-    type(dense_factor_t), intent(out) :: factor  !! of `group_matrix`
-    real(wp), intent(out) :: scales(:)           !! (bodies of the group) [m]
-
-    scales = column_scales(linkage, group)
-    call factorize(group_matrix(linkage, group, pose, scales), factor)
-  end subroutine factorize_group
 
 end module group_equations

@@ -1,11 +1,12 @@
 !> Places groups other than RRR dyads of given lengths: in closed form, from circles and lines, or
 !! by Newton's method.
 module group_places
-  use dense_factor, only: dense_factor_t, least_singular_value, solve
+  use dense_factor, only: least_singular_value, solve
   use dyad_places, only: limit_slack, place_dyad
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
-  use group_equations, only: drive_direction, drive_value, factorize_group, &
-    line_axis, line_offset, misfit_of, world_line
+  use group_equations, only: drive_direction, drive_value, line_axis, line_offset, misfit_of, &
+    world_line
+  use group_factors, only: factorize_group, group_factors_t
   use kinds, only: wp
   use linkages, only: cross, demand_drive, equation_t, group_t, group_carried, &
     group_cross_slide, group_driven_dyad, group_on_line, group_placed, group_spanned, &
@@ -265,8 +266,8 @@ contains
     integer, intent(out) :: iterations        !! how many
     type(error_t), allocatable, intent(inout) :: error !! why it does not converge
 
-    type(dense_factor_t) :: factor
-    real(wp) :: scales(size(group%bodies)), misfit(size(group%equations)), &
+    type(group_factors_t) :: factors
+    real(wp) :: misfit(size(group%equations)), &
       step(size(group%equations)), total(size(group%equations)), size_of_step, last, reach, angle
     integer :: i, k
 
@@ -276,18 +277,18 @@ contains
     last = huge(last)
     reach = 1.0_wp
     do iterations = 1, most_iterations
-      call factorize_group(linkage, group, pose, factor, scales)
-      if (.not. abs(factor%determinant) > 0.0_wp) exit
-      reach = maxval([maxval(abs(pose%pin)), scales])
+      call factorize_group(linkage, group, pose, factors)
+      if (.not. abs(factors%factor%determinant) > 0.0_wp) exit
+      reach = maxval([maxval(abs(pose%pin)), factors%scale])
       do i = 1, size(group%equations)
         misfit(i) = misfit_of(linkage, group%equations(i), pose, crank)
       end do
-      step = -solve(factor, misfit)
+      step = -solve(factors%factor, misfit)
       do k = 1, size(group%pins)
         pose%pin(:, group%pins(k)) = pose%pin(:, group%pins(k)) + step(2*k - 1:2*k)
       end do
       do k = 1, size(group%bodies)
-        angle = step(2*size(group%pins) + k)/scales(k)
+        angle = step(2*size(group%pins) + k)/factors%scale(k)
         associate (direction => pose%direction(:, group%bodies(k)))
           pose%direction(:, group%bodies(k)) = turned([cos(angle), sin(angle)], direction)
         end associate
@@ -303,7 +304,7 @@ contains
       if (size_of_step <= 4.0_wp*epsilon(1.0_wp)*reach .or. (size_of_step >= 0.5_wp*last .and. &
         (size_of_step <= 1.0e-12_wp*reach .or. &
         maxval(abs(misfit)) <= 16.0_wp*epsilon(1.0_wp)*reach))) then
-        sine = least_singular_value(factor)/group%usual
+        sine = least_singular_value(factors%factor)/group%usual
         return
       end if
       last = size_of_step

@@ -9,9 +9,9 @@
 !! Of a linkage that runs in time all derivatives are with respect to the time: h is the angular
 !! velocity, h' the angular acceleration of the true motion of all drives, and ω2 = 1, α2 = 0.
 module kinematic_coefficients
-  use dense_factor, only: dense_factor_t, solve
-  use group_equations, only: curvature_of, factorize_group, find_gradient, find_rates_of_drives, &
-    gradient_t
+  use dense_factor, only: solve
+  use group_equations, only: curvature_of, find_rates_of_drives, gradient_t
+  use group_factors, only: factorize_group, group_factors_t
   use kinds, only: wp
   use linkages, only: demand_drive, group_t, group_carried, group_dyad, linkage_t, normal_to
   use pose_types, only: arm_to_pin, kinematic_coefficients_t
@@ -29,11 +29,13 @@ contains
   !!
   !! With rates of its drives, which then need not follow the first one: velocities, and
   !! accelerations without any of the drives.
-  pure function find_kinematic_coefficients(linkage, pose, rates) result(coefficients)
+  pure function find_kinematic_coefficients(linkage, pose, rates, factors) result(coefficients)
     type(linkage_t), intent(in) :: linkage !! bodies, groups and what joins them
     type(pose_t), intent(in) :: pose       !! away from dead points
     real(wp), intent(in), optional :: rates(:) !! (drives) [rad/s] or [m/s]; absent: per rate of the
                                                !! first
+    type(group_factors_t), intent(in), optional :: factors(:) !! of `factorize_groups` at this pose;
+                                               !! absent: they are found
     type(kinematic_coefficients_t) :: coefficients
 
     real(wp), dimension(size(linkage%drives)) :: drives, accelerations
@@ -54,32 +56,35 @@ contains
     else
       call find_rates_of_drives(linkage, pose%crank, drives, accelerations)
     end if
-    call find_coefficients(linkage, pose, drives, accelerations, .true., coefficients)
+    call find_coefficients(linkage, pose, drives, accelerations, .true., coefficients, factors)
   end function find_kinematic_coefficients
 
   !> Velocities of pins and bodies alone, with rates of the drives.
-  pure subroutine find_velocities(linkage, pose, rates, coefficients)
+  pure subroutine find_velocities(linkage, pose, rates, coefficients, factors)
     type(linkage_t), intent(in) :: linkage !! bodies, groups and what joins them
     type(pose_t), intent(in) :: pose       !! away from dead points
     real(wp), intent(in) :: rates(:)       !! (drives) [rad/s] or [m/s]
     type(kinematic_coefficients_t), intent(out) :: coefficients !! accelerations are 0, or of no use
+    type(group_factors_t), intent(in), optional :: factors(:) !! as of `find_kinematic_coefficients`
 
     if (allocated(pose%coefficients)) then
       coefficients = find_kinematic_coefficients(linkage, pose, rates)
     else
-      call find_coefficients(linkage, pose, rates, 0.0_wp*rates, .false., coefficients)
+      call find_coefficients(linkage, pose, rates, 0.0_wp*rates, .false., coefficients, factors)
     end if
   end subroutine find_velocities
 
   !> Group by group.
   pure subroutine find_coefficients(linkage, pose, rates, accelerations, with_slopes, &
-    coefficients)
+    coefficients, factors)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     real(wp), intent(in) :: rates(:), accelerations(:) !! (drives)
     logical, intent(in) :: with_slopes !! accelerations are wanted
     type(kinematic_coefficients_t), intent(out) :: coefficients
+    type(group_factors_t), intent(in), optional :: factors(:)
 
+    type(group_factors_t) :: own
     integer :: i
 
     allocate (coefficients%turn(size(linkage%bodies)), &
@@ -111,8 +116,14 @@ contains
       case (group_carried)
         call move_carried(linkage, linkage%groups(i), pose, coefficients)
       case default
-        call move_group(linkage, linkage%groups(i), pose, rates, accelerations, with_slopes, &
-          coefficients)
+        if (present(factors)) then
+          call move_group(linkage, linkage%groups(i), pose, factors(i), rates, accelerations, &
+            with_slopes, coefficients)
+        else
+          call factorize_group(linkage, linkage%groups(i), pose, own)
+          call move_group(linkage, linkage%groups(i), pose, own, rates, accelerations, &
+            with_slopes, coefficients)
+        end if
       end select
     end do
   end subroutine find_coefficients
@@ -142,38 +153,37 @@ contains
   !> First and second derivatives of the unknowns of a group, from its equations: `J q' = c' − J₀
   !! q₀'` and `J q'' = c'' − q'ᵀ ∇²C q' − J₀ q₀''`, where q₀ is placed before, c' the rate of drives
   !! and c'' their acceleration, which only a linkage that runs in time has.
-  pure subroutine move_group(linkage, group, pose, rates, accelerations, with_slopes, coefficients)
+  pure subroutine move_group(linkage, group, pose, factors, rates, accelerations, with_slopes, &
+    coefficients)
     type(linkage_t), intent(in) :: linkage
     type(group_t), intent(in) :: group
     type(pose_t), intent(in) :: pose
+    type(group_factors_t), intent(in) :: factors
     real(wp), intent(in) :: rates(:), accelerations(:)
     logical, intent(in) :: with_slopes
     type(kinematic_coefficients_t), intent(inout) :: coefficients
 
-    type(dense_factor_t) :: factor
-    type(gradient_t) :: gradient(size(group%equations))
-    real(wp) :: scales(size(group%bodies)), right(size(group%equations))
+    real(wp) :: right(size(group%equations))
     integer :: i
 
-    call factorize_group(linkage, group, pose, factor, scales)
     coefficients%turn(group%bodies) = 0.0_wp
     coefficients%pin(:, group%pins) = 0.0_wp
     do i = 1, size(group%equations)
-      call find_gradient(linkage, group%equations(i), pose, gradient(i))
-      right(i) = -along(gradient(i), coefficients%pin, coefficients%turn)
+      right(i) = -along(factors%gradient(i), coefficients%pin, coefficients%turn)
       if (group%equations(i)%kind == demand_drive) right(i) = right(i) + &
         rates(group%equations(i)%number)
     end do
-    call store_derivatives(group, scales, solve(factor, right), coefficients%pin, coefficients%turn)
+    call store_derivatives(group, factors%scale, solve(factors%factor, right), coefficients%pin, &
+      coefficients%turn)
     if (.not. with_slopes) return
     do i = 1, size(group%equations)
-      right(i) = -along(gradient(i), coefficients%pin_slope, coefficients%turn_slope) - &
+      right(i) = -along(factors%gradient(i), coefficients%pin_slope, coefficients%turn_slope) - &
         curvature_of(linkage, group%equations(i), pose, coefficients%turn, coefficients%pin)
       if (linkage%runs_in_time .and. group%equations(i)%kind == demand_drive) right(i) = &
         right(i) + accelerations(group%equations(i)%number)
     end do
-    call store_derivatives(group, scales, solve(factor, right), coefficients%pin_slope, &
-      coefficients%turn_slope)
+    call store_derivatives(group, factors%scale, solve(factors%factor, right), &
+      coefficients%pin_slope, coefficients%turn_slope)
   end subroutine move_group
 
   !> Puts derivatives of the unknowns of a group in their places.

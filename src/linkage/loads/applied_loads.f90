@@ -20,7 +20,7 @@ module applied_loads
   public :: evaluate_loads, add_conservative_loads, add_prescribed_loads, add_standing_loads, &
     add_moving_loads, is_moving, moving_force, moving_couple, forced_places, forces_at_places, &
     applied_potential, generalised_force, has_standing_loads, has_moving_loads, &
-    standing_pulls, moving_pulls, spring_scale, load_switches, turns_over
+    standing_pulls, moving_pulls, spring_scale, load_switches, turns_over, add_effort
 
 contains
 

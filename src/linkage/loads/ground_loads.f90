@@ -10,7 +10,7 @@ module ground_loads
   implicit none (type, external)
   private
 
-  public :: pulls_on_ground
+  public :: pulls_on_ground, effort_on_ground
 
 contains
 
@@ -27,13 +27,13 @@ contains
 
     total = 0.0_wp
     do i = 1, size(pull)
-      if (linkage%loads(i)%kind == applies_along) total = total + on_ground(linkage, pose, &
+      if (linkage%loads(i)%kind == applies_along) total = total + effort_on_ground(linkage, pose, &
         linkage%loads(i)%along, along(i), -pull(i))
     end do
   end function pulls_on_ground
 
   !> The same of an effort along a coordinate.
-  pure recursive function on_ground(linkage, pose, coordinate, evaluated, effort) &
+  pure recursive function effort_on_ground(linkage, pose, coordinate, evaluated, effort) &
     result(total)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
@@ -49,8 +49,8 @@ contains
     if (coordinate%kind == is_sum) then
       do i = 1, size(coordinate%term)
         call evaluate(linkage, pose, linkage%coordinates(coordinate%term(i)), term)
-        total = total + on_ground(linkage, pose, linkage%coordinates(coordinate%term(i)), term, &
-          coordinate%weight(i)*effort)
+        total = total + effort_on_ground(linkage, pose, linkage%coordinates(coordinate%term(i)), &
+          term, coordinate%weight(i)*effort)
       end do
       return
     end if
@@ -61,6 +61,6 @@ contains
           reference_point(linkage), force)]
       end associate
     end do
-  end function on_ground
+  end function effort_on_ground
 
 end module ground_loads

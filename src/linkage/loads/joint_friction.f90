@@ -1,26 +1,35 @@
 !> Friction in pins and sliders: the forces in the joints that it depends on, and that it changes.
 module joint_friction
-  use applied_loads, only: generalised_force
-  use coordinates, only: coordinate_rate, slider_coordinate
+  use applied_loads, only: add_effort, generalised_force
+  use coordinate_types, only: coordinate_t, is_angle
+  use coordinates, only: evaluate, evaluated_rate, evaluated_t, slider_coordinate
   use dense_factor, only: dense_factor_t, factorize, solve
-  use group_equations, only: line_axis
+  use ground_loads, only: effort_on_ground
+  use group_factors, only: group_factors_t
   use inertia_loads, only: load_t
   use joint_forces, only: add_scaled, find_joint_forces, force_at_pin, joint_forces_t
   use joint_friction_types, only: joint_friction_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: cross, linkage_t, reference_point
+  use linkages, only: linkage_t
   use poses, only: pose_t
   implicit none (type, external)
   private
 
-  public :: friction_t, has_friction, find_friction, force_in_joint
+  public :: friction_t, rubbing_t, has_friction, find_friction, find_rubbing, force_in_joint
   public :: friction_rates, coulomb_efforts, put_friction, find_normal_forces, finish_friction, &
     friction_on_ground
   public :: is_solved, is_locked
 
   !> Whether forces in the joints are found, or grow beyond all bounds as friction rises.
   integer, parameter :: is_solved = 0, is_locked = 1
+
+  !> The coordinate along which a joint rubs: the angle of its body against what bears the pin, or
+  !! the place of its block along the line.
+  type :: rubbing_t
+    type(coordinate_t) :: along
+    type(evaluated_t) :: at !! a pose
+  end type rubbing_t
 
   !> Friction in the joints, and the forces that balance it.
   type :: friction_t
@@ -30,6 +39,7 @@ module joint_friction
     real(wp) :: share = 1.0_wp                  !! of all coefficients at which they lock [-]
     real(wp) :: contraction = 0.0_wp            !! bound of the iteration: below 1 it is proven that
                                                 !! there is one solution [-]
+    type(rubbing_t), allocatable :: rubbing(:)  !! (frictions)
     real(wp), allocatable :: normal(:)          !! (frictions) force in the joint, 0 or more [N]
     real(wp), allocatable :: effort(:)          !! (frictions) couple on the body, or force along
                                                 !! the line on the pin [N m] or [N]
@@ -73,7 +83,7 @@ contains
   !! friction, all coefficients rising together, by Newton's method. Where its determinant reaches
   !! zero on the way forces grow beyond all bounds: the linkage locks itself.
   pure subroutine find_friction(linkage, pose, coefficients, speed, factor, without, &
-    friction, of_units)
+    friction, of_units, factors)
     type(linkage_t), intent(in) :: linkage       !! its frictions
     type(pose_t), intent(in) :: pose             !! away from dead points
     type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
@@ -85,6 +95,8 @@ contains
     type(joint_forces_t), intent(in), optional :: of_units(:) !! (frictions) forces in the joints
                                                  !! that balance an effort of one in each; absent:
                                                  !! statics tells them
+    type(group_factors_t), intent(in), optional :: factors(:) !! of `factorize_groups` at this pose;
+                                                 !! absent: they are found
 
     type(load_t) :: body_load(size(linkage%bodies))
     real(wp) :: pin_load(2, size(linkage%is_ground))
@@ -95,14 +107,15 @@ contains
     integer :: i, j, k
 
     associate (rubs => linkage%frictions)
-      friction%rate = friction_rates(linkage, pose, coefficients, speed)
+      call find_rubbing(linkage, pose, friction%rubbing)
+      friction%rate = speed*friction_rates(linkage, pose, friction%rubbing, coefficients)
       coulomb = coulomb_efforts(rubs, friction%rate)
       viscous = -rubs%viscous*friction%rate
       if (present(of_units)) then
         joints = sum_of(of_units, viscous)
       else
-        call put_friction(linkage, pose, viscous, body_load, pin_load)
-        joints = find_joint_forces(linkage, pose, body_load, pin_load)
+        call put_friction(linkage, pose, friction%rubbing, viscous, body_load, pin_load)
+        joints = find_joint_forces(linkage, pose, body_load, pin_load, factors)
       end if
       do k = 1, size(rubs)
         base(:, k) = force_in_joint(linkage, joints, rubs(k))
@@ -114,9 +127,9 @@ contains
         if (present(of_units)) then
           joints = sum_of(of_units, merge(coulomb, 0.0_wp, [(i == j, i=1, size(rubs))]))
         else
-          call put_friction(linkage, pose, merge(coulomb, 0.0_wp, [(i == j, i=1, size(rubs))]), &
-            body_load, pin_load)
-          joints = find_joint_forces(linkage, pose, body_load, pin_load)
+          call put_friction(linkage, pose, friction%rubbing, merge(coulomb, 0.0_wp, [(i == j, &
+            i=1, size(rubs))]), body_load, pin_load)
+          joints = find_joint_forces(linkage, pose, body_load, pin_load, factors)
         end if
         do k = 1, size(rubs)
           influence(:, k, j) = force_in_joint(linkage, joints, rubs(k))
@@ -128,7 +141,8 @@ contains
     if (present(of_units)) then
       friction%joints = sum_of(of_units, friction%effort)
     else
-      friction%joints = find_joint_forces(linkage, pose, friction%body_load, friction%pin_load)
+      friction%joints = find_joint_forces(linkage, pose, friction%body_load, friction%pin_load, &
+        factors)
     end if
     friction%load = -generalised_force(linkage, coefficients, friction%body_load, &
       friction%pin_load)
@@ -149,18 +163,41 @@ contains
     end do
   end function sum_of
 
+  !> The coordinates along which all joints rub, at a pose.
+  pure subroutine find_rubbing(linkage, pose, rubbing)
+    type(linkage_t), intent(in) :: linkage !! its frictions
+    type(pose_t), intent(in) :: pose       !! positions and directions
+    type(rubbing_t), allocatable, intent(out) :: rubbing(:) !! (frictions)
+
+    integer :: k
+
+    allocate (rubbing(size(linkage%frictions)))
+    do k = 1, size(rubbing)
+      associate (rub => linkage%frictions(k), along => rubbing(k)%along)
+        if (rub%slider > 0) then
+          along = slider_coordinate(linkage, rub%slider)
+        else
+          along%kind = is_angle
+          along%at%body = [rub%against, rub%body]
+        end if
+        call evaluate(linkage, pose, along, rubbing(k)%at)
+      end associate
+    end do
+  end subroutine find_rubbing
+
   !> Rates of all joints that rub [rad/s] or [m/s].
-  pure function friction_rates(linkage, pose, coefficients, speed) result(rates)
-    type(linkage_t), intent(in) :: linkage       !! its frictions
-    type(pose_t), intent(in) :: pose             !! pins and directions
-    type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
-    real(wp), intent(in) :: speed                !! by which they are multiplied
-    real(wp) :: rates(size(linkage%frictions))
+  pure function friction_rates(linkage, pose, rubbing, motion) result(rates)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose       !! positions and directions
+    type(rubbing_t), intent(in) :: rubbing(:) !! (frictions) of `find_rubbing` at this pose
+    type(kinematic_coefficients_t), intent(in) :: motion !! velocities, or coefficients: then per
+                                           !! rate of the first drive
+    real(wp) :: rates(size(rubbing))
 
     integer :: k
 
     do k = 1, size(rates)
-      rates(k) = speed*rate_of(linkage, pose, coefficients, linkage%frictions(k))
+      rates(k) = evaluated_rate(linkage, pose, motion, rubbing(k)%along, rubbing(k)%at)
     end do
   end function friction_rates
 
@@ -180,13 +217,15 @@ contains
     type(pose_t), intent(in) :: pose            !! pins and directions
     real(wp), intent(in) :: viscous(:)          !! (frictions) efforts [N m] or [N]
     real(wp), intent(in) :: coulomb(:)          !! (frictions) of `coulomb_efforts`
-    type(friction_t), intent(inout) :: friction !! with normal forces and rates; the rest is set
+    type(friction_t), intent(inout) :: friction !! with normal forces, rates and where it rubs;
+                                                !! the rest is set
 
     friction%effort = viscous + coulomb*friction%normal
     friction%power = -friction%effort*friction%rate
     allocate (friction%body_load(size(linkage%bodies)), friction%pin_load(2, &
       size(linkage%is_ground)))
-    call put_friction(linkage, pose, friction%effort, friction%body_load, friction%pin_load)
+    call put_friction(linkage, pose, friction%rubbing, friction%effort, friction%body_load, &
+      friction%pin_load)
   end subroutine finish_friction
 
   !> Force in a joint that rubs: on the body by the pin, or along the normal of a line, or at one
@@ -205,79 +244,39 @@ contains
     end if
   end function force_in_joint
 
-  !> Rate of a joint: of its body against the other one, or of its pin along the line [-] or [m],
-  !! or, with a drive by length, [1/m] or [-].
-  pure function rate_of(linkage, pose, coefficients, rub) result(rate)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
-    type(kinematic_coefficients_t), intent(in) :: coefficients
-    type(joint_friction_t), intent(in) :: rub
-    real(wp) :: rate
-
-    if (rub%slider > 0) then
-      rate = coordinate_rate(linkage, pose, coefficients, slider_coordinate(linkage, rub%slider))
-      return
-    end if
-    rate = coefficients%turn(rub%body)
-    if (rub%against > 0) rate = rate - coefficients%turn(rub%against)
-  end function rate_of
-
   !> Puts couples of pins and forces of sliders on the linkage.
-  pure subroutine put_friction(linkage, pose, effort, body_load, pin_load)
-    type(linkage_t), intent(in) :: linkage    !! its frictions
-    type(pose_t), intent(in) :: pose          !! pins and directions
+  pure subroutine put_friction(linkage, pose, rubbing, effort, body_load, pin_load)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose          !! positions and directions
+    type(rubbing_t), intent(in) :: rubbing(:) !! (frictions) of `find_rubbing` at this pose
     real(wp), intent(in) :: effort(:)         !! (frictions) on the body or the pin [N m] or [N]
     type(load_t), intent(out) :: body_load(:) !! (bodies)
     real(wp), intent(out) :: pin_load(:, :)   !! (2, pins)
 
-    real(wp) :: force(2), arm(2)
     integer :: k
 
     pin_load = 0.0_wp
     do k = 1, size(effort)
-      associate (rub => linkage%frictions(k))
-        if (rub%slider == 0) then
-          body_load(rub%body)%moment = body_load(rub%body)%moment + effort(k)
-          if (rub%against > 0) body_load(rub%against)%moment = body_load(rub%against)%moment - &
-            effort(k)
-          cycle
-        end if
-        force = effort(k)*line_axis(linkage, pose, rub%slider)
-        pin_load(:, rub%pin) = pin_load(:, rub%pin) + force
-        associate (carrier => linkage%sliders(rub%slider)%body)
-          if (carrier == 0) cycle
-          arm = pose%pin(:, rub%pin) - pose%pin(:, linkage%bodies(carrier)%first_pin)
-          body_load(carrier)%force = body_load(carrier)%force - force
-          body_load(carrier)%moment = body_load(carrier)%moment - cross(arm, force)
-        end associate
-      end associate
+      call add_effort(linkage, pose, rubbing(k)%along, rubbing(k)%at, effort(k), body_load, &
+        pin_load)
     end do
   end subroutine put_friction
 
   !> What friction puts on the ground beside the forces in the joints: couples of pins on ground
   !! pivots, or on blocks that do not turn, and forces along fixed guides, or by a link on the block
   !! at a ground pivot.
-  pure function friction_on_ground(linkage, pose, effort) result(load)
-    type(linkage_t), intent(in) :: linkage !! its frictions
-    type(pose_t), intent(in) :: pose       !! pins and directions
-    real(wp), intent(in) :: effort(:)      !! (frictions) on the body or the pin [N m] or [N]
-    real(wp) :: load(3)                    !! fx, fy [N], moment about `reference_point` [N m]
+  pure function friction_on_ground(linkage, pose, friction) result(load)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose           !! positions and directions
+    type(friction_t), intent(in) :: friction   !! at this pose
+    real(wp) :: load(3)                        !! fx, fy [N], moment about `reference_point` [N m]
 
-    real(wp) :: force(2)
     integer :: k
 
     load = 0.0_wp
-    do k = 1, size(effort)
-      associate (rub => linkage%frictions(k))
-        if (rub%slider == 0) then
-          if (rub%against == 0) load(3) = load(3) - effort(k)
-          cycle
-        end if
-        if (linkage%sliders(rub%slider)%body > 0 .and. .not. linkage%is_ground(rub%pin)) cycle
-        force = effort(k)*line_axis(linkage, pose, rub%slider)
-        if (linkage%sliders(rub%slider)%body == 0) force = -force
-        load(:2) = load(:2) + force
-        load(3) = load(3) + cross(pose%pin(:, rub%pin) - reference_point(linkage), force)
+    do k = 1, size(friction%effort)
+      associate (rubbing => friction%rubbing(k))
+        load = load + effort_on_ground(linkage, pose, rubbing%along, rubbing%at, friction%effort(k))
       end associate
     end do
   end function friction_on_ground

@@ -98,7 +98,8 @@ contains
     if (present(divided)) then
       running%joints = divided%moving
     else
-      running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load)
+      running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load, &
+        unit%factors)
     end if
     running%load = -generalised_force(linkage, coefficients, running%body_load, running%pin_load)
     if (.not. has_friction(linkage)) return
@@ -111,10 +112,9 @@ contains
         1.0_wp], without, running%friction, divided%friction)
     else
       call find_friction(linkage, pose, coefficients, speed, [speed**2, acceleration, 1.0_wp, &
-        1.0_wp], without, running%friction)
+        1.0_wp], without, running%friction, factors=unit%factors)
     end if
-    running%on_ground = running%on_ground + friction_on_ground(linkage, pose, &
-      running%friction%effort)
+    running%on_ground = running%on_ground + friction_on_ground(linkage, pose, running%friction)
     do i = 1, size(running%body_load)
       running%body_load(i)%force = running%body_load(i)%force + &
         running%friction%body_load(i)%force
@@ -126,7 +126,8 @@ contains
     if (present(divided)) then
       call add_scaled(running%joints, 1.0_wp, running%friction%joints)
     else
-      running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load)
+      running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load, &
+        unit%factors)
     end if
     running%joints%friction = running%friction%effort
   end subroutine find_running_loads

@@ -2,6 +2,7 @@
 !! they can hold it between them with any force.
 module coupled_drives
   use group_equations, only: find_gradient, gradient_t
+  use group_factors, only: factorize_groups, group_factors_t
   use inertia_loads, only: load_t
   use joint_forces, only: find_joint_forces, joint_forces_t
   use kinds, only: wp
@@ -27,11 +28,13 @@ contains
 
     type(gradient_t) :: gradient
     type(joint_forces_t) :: forces
+    type(group_factors_t), allocatable :: factors(:)
     type(load_t) :: load(size(linkage%bodies)), no_load
     real(wp) :: pin_load(2, size(pose%pin, 2)), span
     integer :: d, k
 
     span = max(maxval(linkage%bodies%length), maxval(abs(pose%pin)))
+    call factorize_groups(linkage, pose, factors)
     do redundancy = 1, size(linkage%redundancies)
       call find_gradient(linkage, linkage%redundancies(redundancy), pose, gradient)
       load = no_load
@@ -40,7 +43,7 @@ contains
         if (gradient%pin(k) > 0) pin_load(:, gradient%pin(k)) = gradient%by_pin(:, k)
         if (gradient%body(k) > 0) load(gradient%body(k))%moment = gradient%by_angle(k)
       end do
-      forces = find_joint_forces(linkage, pose, load, pin_load)
+      forces = find_joint_forces(linkage, pose, load, pin_load, factors)
       if (.not. allocated(forces%drive)) cycle
       drives = pack([(d, d=1, size(forces%drive))], abs(forces%drive) > rounding*max(1.0_wp, span))
       if (size(drives) > 0) return

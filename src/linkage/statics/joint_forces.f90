@@ -8,8 +8,8 @@
 
 !> Forces in the pins, from the equilibrium of every link.
 module joint_forces
-  use dense_factor, only: dense_factor_t, solve_transposed
-  use group_equations, only: factorize_group, find_gradient, gradient_t
+  use dense_factor, only: solve_transposed
+  use group_factors, only: factorize_group, group_factors_t
   use inertia_loads, only: load_t
   use kinds, only: wp
   use linkages, only: cross, demand_angle, demand_drive, demand_length, demand_line, &
@@ -47,13 +47,16 @@ contains
   !! Groups are removed in the reverse of the order in which they are placed. Each passes the forces
   !! at its bases on as loads on what carries it, until only the driven body is left. At a change
   !! point statics tells the force of a single drive alone; the others are 0.
-  pure function find_joint_forces(linkage, pose, body_load, pin_load) result(forces)
+  pure function find_joint_forces(linkage, pose, body_load, pin_load, factors) result(forces)
     type(linkage_t), intent(in) :: linkage   !! bodies and dyads
     type(pose_t), intent(in) :: pose         !! away from dead points
     type(load_t), intent(in) :: body_load(:) !! (bodies) all loads but pin forces
     real(wp), intent(in) :: pin_load(:, :)   !! (2, pins) loads on the pins [N]
+    type(group_factors_t), intent(in), optional :: factors(:) !! of `factorize_groups` at this pose,
+                                             !! for any number of loads; absent: they are found
     type(joint_forces_t) :: forces
 
+    type(group_factors_t) :: own
     type(load_t) :: load(size(body_load))
     real(wp) :: carried(2, size(pin_load, 2))
     logical :: is_passed(size(body_load))
@@ -78,7 +81,12 @@ contains
       case (group_carried)
         call load_body(linkage, linkage%groups(i), pose, carried, load, forces)
       case default
-        call solve_group(linkage, linkage%groups(i), pose, is_passed, carried, load, forces)
+        if (present(factors)) then
+          call solve_group(linkage, linkage%groups(i), factors(i), is_passed, carried, load, forces)
+        else
+          call factorize_group(linkage, linkage%groups(i), pose, own)
+          call solve_group(linkage, linkage%groups(i), own, is_passed, carried, load, forces)
+        end if
       end select
     end do
     if (linkage%has_crank) then
@@ -232,21 +240,18 @@ contains
 
   !> Forces in a group, from its equations: `Jᵀ λ = −Q`, with Q the loads on its unknowns and λ the
   !! forces that the equations stand for. They load what is placed before.
-  pure subroutine solve_group(linkage, group, pose, is_passed, carried, load, forces)
+  pure subroutine solve_group(linkage, group, factors, is_passed, carried, load, forces)
     type(linkage_t), intent(in) :: linkage
     type(group_t), intent(in) :: group
-    type(pose_t), intent(in) :: pose
+    type(group_factors_t), intent(in) :: factors
     logical, intent(inout) :: is_passed(:)   !! (bodies) whose loads their first pins bear already
     real(wp), intent(inout) :: carried(:, :) !! (2, pins) loads on pins so far [N]
     type(load_t), intent(inout) :: load(:)   !! (bodies) so far, with those of pins they carry
     type(joint_forces_t), intent(inout) :: forces
 
-    type(dense_factor_t) :: factor
-    type(gradient_t) :: gradient
-    real(wp) :: scales(size(group%bodies)), lambda(size(group%equations))
+    real(wp) :: lambda(size(group%equations))
     integer :: i, k, first
 
-    call factorize_group(linkage, group, pose, factor, scales)
     ! The load of a body acts at its first pin, which passes it on.
     do i = 1, size(group%loaded)
       first = linkage%bodies(group%loaded(i))%first_pin
@@ -258,20 +263,20 @@ contains
     do k = 1, size(group%pins)
       lambda(2*k - 1:2*k) = -carried(:, group%pins(k))
     end do
-    lambda(2*size(group%pins) + 1:) = -load(group%bodies)%moment/scales
-    lambda = solve_transposed(factor, lambda)
+    lambda(2*size(group%pins) + 1:) = -load(group%bodies)%moment/factors%scale
+    lambda = solve_transposed(factors%factor, lambda)
     do i = 1, size(group%equations)
-      call find_gradient(linkage, group%equations(i), pose, gradient)
-      do k = 1, 2
-        if (gradient%body(k) > 0) load(gradient%body(k))%moment = load(gradient%body(k))%moment + &
-          lambda(i)*gradient%by_angle(k)
-      end do
-      if (gradient%pin(1) > 0) then
-        carried(:, gradient%pin(1)) = carried(:, gradient%pin(1)) + lambda(i)*gradient%by_pin(:, 1)
-        if (gradient%pin(2) > 0) call load_first_pin(linkage, is_passed(gradient%body(1)), &
-          gradient%body(1), lambda(i)*gradient%by_pin(:, 2), carried, load, forces)
-      end if
-      associate (number => group%equations(i)%number)
+      associate (gradient => factors%gradient(i), number => group%equations(i)%number)
+        do k = 1, 2
+          if (gradient%body(k) > 0) load(gradient%body(k))%moment = &
+            load(gradient%body(k))%moment + lambda(i)*gradient%by_angle(k)
+        end do
+        if (gradient%pin(1) > 0) then
+          carried(:, gradient%pin(1)) = carried(:, gradient%pin(1)) + &
+            lambda(i)*gradient%by_pin(:, 1)
+          if (gradient%pin(2) > 0) call load_first_pin(linkage, is_passed(gradient%body(1)), &
+            gradient%body(1), lambda(i)*gradient%by_pin(:, 2), carried, load, forces)
+        end if
         select case (group%equations(i)%kind)
         case (demand_length, demand_angle)
           call add_force(linkage, group%equations(i)%body, group%equations(i)%pin, &
@@ -287,7 +292,6 @@ contains
         end select
       end associate
     end do
-
   end subroutine solve_group
 
   !> What an equation puts on a body is a load on its first pin, which bears the opposite of it; if
