@@ -2,7 +2,7 @@
 module coordinate_builder
   use coordinate_types, only: coordinate_t, is_across, is_along, is_sum, terminal_t
   use coordinates, only: slider_coordinate
-  use group_equations, only: direction_at
+  use drive_values, only: direction_at
   use linkages, only: linkage_t
   use measure_cards, only: measure_across, measure_angle, measure_card_t, measure_distance, &
     measure_sum, measure_travel

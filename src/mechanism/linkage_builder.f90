@@ -8,7 +8,7 @@ module linkage_builder
   use drawn_cranks, only: starting_cranks
   use drawn_places, only: complete_drawing
   use errors, only: error_t
-  use group_equations, only: direction_at
+  use drive_values, only: direction_at
   use kinds, only: wp
   use link_axis, only: foot_on_axis, foot_t, lies_on_axis
   use link_cards, only: has_own_mass, segment_count

@@ -3,7 +3,7 @@ module spring_builder
   use applied_load_types, only: applied_load_t, applies_along
   use constants, only: degree
   use coordinate_types, only: coordinate_t, is_angle, terminal_t
-  use group_equations, only: drive_value
+  use drive_values, only: drive_value
   use kinds, only: wp
   use link_shapes, only: find_drawn_place
   use linkages, only: body_t, drive_of_angle, linkage_t, turned

@@ -7,7 +7,7 @@
 !! of the crank cancels Z_k if its first moment is `|Z_k|/(k ω2)²`, opposite to Z_k at θ2 = 0.
 module balance_shafts
   use constants, only: degree, two_pi
-  use group_equations, only: direction_at
+  use drive_values, only: direction_at
   use kinds, only: wp
   use linkages, only: cross, linkage_t, normal_to, reference_point, shaft_t
   use load_cases, only: case_count

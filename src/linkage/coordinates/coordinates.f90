@@ -8,7 +8,7 @@ module coordinates
   use coordinate_types, only: coordinate_t, frame_t, is_across, is_along, is_angle, is_distance, &
     is_sum, terminal_t, twist_t, wrench_t
   use distances, only: distance_acceleration, find_distance
-  use group_equations, only: drive_value
+  use drive_values, only: drive_value
   use kinds, only: wp
   use lines, only: line_acceleration, line_axis, line_couple, line_value
   use linkages, only: cross, drive_of_angle, linkage_t

@@ -4,7 +4,8 @@ module free_forces
   use applied_loads, only: generalised_force
   use body_points, only: find_point_coefficients, point_coefficients_t
   use dense_factor, only: dense_factor_t, factorize, solve, solve_transposed
-  use group_equations, only: drive_rate, find_gradient, gradient_t
+  use drive_values, only: drive_rate
+  use group_equations, only: find_gradient, gradient_t
   use inertia_loads, only: load_t
   use joint_forces, only: add_force, joint_forces_t
   use kinds, only: wp

@@ -14,7 +14,7 @@ module linkage_motions
   use errors, only: error_of_dead_point, error_t, set_error
   use gears, only: gear_t
   use group_determinants, only: determinant_of, determinants_of
-  use group_equations, only: drive_rate, drive_value
+  use drive_values, only: drive_rate, drive_value
   use interruption, only: was_interrupted
   use joint_friction, only: has_friction
   use kinds, only: long, wp

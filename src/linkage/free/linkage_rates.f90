@@ -18,7 +18,7 @@ module linkage_rates
   use drives, only: drive_t, refuse_speed
   use errors, only: error_of_dead_point, error_of_reach, error_t, set_error
   use gears, only: driven_by, gear_share, gear_t, reflected_inertia
-  use group_equations, only: drive_rate
+  use drive_values, only: drive_rate
   use group_factors, only: factorize_groups, group_factors_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, find_velocities, &

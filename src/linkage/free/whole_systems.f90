@@ -13,8 +13,8 @@
 !! from a pose near by.
 module whole_systems
   use constants, only: degree
-  use group_equations, only: curvature_of, drive_rate, farthest_arm, find_gradient, &
-    gradient_t, misfit_of
+  use drive_values, only: drive_rate
+  use group_equations, only: curvature_of, farthest_arm, find_gradient, gradient_t, misfit_of
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: demand_angle, demand_drive, demand_length, drive_of_angle, equation_t, &

@@ -16,18 +16,15 @@
 !! before the bodies between them are turned. One matrix of gradients serves positions (Newton),
 !! velocities and accelerations, and, transposed, the forces.
 module group_equations
-  use constants, only: degree
   use kinds, only: wp
   use linkages, only: body_t, cross, demand_angle, demand_drive, demand_length, demand_line, &
     demand_turn, drive_of_angle, drive_of_length, drive_of_slider, equation_t, group_t, &
     linkage_t, normal_to, turned
-  use motion_programs, only: program_values
   use pose_types, only: pose_t
   implicit none (type, external)
   private
 
-  public :: gradient_t, find_gradient, misfit_of, curvature_of, drive_rate, drive_value, &
-    find_rates_of_drives, drive_direction, direction_at, unknowns_of, &
+  public :: gradient_t, find_gradient, misfit_of, curvature_of, unknowns_of, &
     world_line, line_axis, line_offset, farthest_arm
 
   !> Derivatives of an equation by the positions of up to two pins and the angles of up to two
@@ -227,120 +224,6 @@ contains
     is = equation%kind == demand_length
     if (equation%kind == demand_drive) is = linkage%drives(equation%number)%kind == drive_of_length
   end function is_distance
-
-  !> Coordinate of a drive [deg] or [m].
-  pure function drive_value(linkage, number, crank) result(value)
-    type(linkage_t), intent(in) :: linkage !! its drives
-    integer, intent(in) :: number          !! of the drive, from 1
-    real(wp), intent(in) :: crank          !! coordinate of the first drive [deg] or [m]; in time
-                                           !! [s]
-    real(wp) :: value
-
-    real(wp) :: motion(0:2)
-
-    if (linkage%runs_in_time) then
-      motion = motion_in_time(linkage, number, crank)
-      value = motion(0)
-    else
-      value = linkage%drives(number)%ratio*crank + linkage%drives(number)%phase
-    end if
-  end function drive_value
-
-  !> Position, rate and acceleration of a drive of a linkage that runs in time.
-  pure function motion_in_time(linkage, number, time) result(motion)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: number
-    real(wp), intent(in) :: time !! [s]
-    real(wp) :: motion(0:2)      !! [deg, deg/s, deg/s²] or [m, m/s, m/s²]
-
-    associate (drive => linkage%drives(number))
-      if (drive%has_law) then
-        motion = program_values(drive%law, time)
-      else
-        motion = drive%ratio*program_values(linkage%drives(1)%law, time)
-      end if
-      motion(0) = motion(0) + drive%phase
-    end associate
-  end function motion_in_time
-
-  !> Rate of a drive's coordinate, angles in radians, per that of the first drive.
-  pure function drive_rate(linkage, number) result(rate)
-    type(linkage_t), intent(in) :: linkage !! its drives, which go with the first one
-    integer, intent(in) :: number          !! of the drive, from 1
-    real(wp) :: rate
-
-    rate = linkage%drives(number)%ratio
-    if (linkage%drives(number)%kind == drive_of_angle) rate = rate*degree
-    if (linkage%drives(1)%kind == drive_of_angle) rate = rate/degree
-    if (number == 1) rate = 1.0_wp
-  end function drive_rate
-
-  !> First and second derivatives of the coordinates of all drives, angles in radians, with respect
-  !! to that of the first one, of which the second are 0; in time rates and accelerations.
-  pure subroutine find_rates_of_drives(linkage, crank, rates, accelerations)
-    type(linkage_t), intent(in) :: linkage        !! its drives
-    real(wp), intent(in) :: crank                 !! coordinate of the first drive [deg] or [m]; in
-                                                  !! time [s]
-    real(wp), intent(out) :: rates(:)             !! (drives) [rad] or [m], per rad or m; in time
-                                                  !! per second
-    real(wp), intent(out) :: accelerations(:)     !! (drives) likewise, per square
-
-    real(wp) :: motion(0:2)
-    integer :: i
-
-    accelerations = 0.0_wp
-    if (.not. linkage%runs_in_time) then
-      rates = [(drive_rate(linkage, i), i=1, size(rates))]
-      return
-    end if
-    do i = 1, size(rates)
-      motion = motion_in_time(linkage, i, crank)
-      if (linkage%drives(i)%kind == drive_of_angle) motion = motion*degree
-      rates(i) = motion(1)
-      accelerations(i) = motion(2)
-    end do
-  end subroutine find_rates_of_drives
-
-  !> The direction, first → last pin, that a drive gives its body.
-  pure function drive_direction(linkage, number, pose, crank) result(direction)
-    type(linkage_t), intent(in) :: linkage !! its drives and bodies
-    integer, intent(in) :: number          !! of a drive of an angle
-    type(pose_t), intent(in) :: pose       !! direction of the body from which it is measured
-    real(wp), intent(in) :: crank          !! coordinate of the first drive [deg] or [m]
-    real(wp) :: direction(2)
-
-    associate (drive => linkage%drives(number))
-      direction = direction_at(drive_value(linkage, number, crank))
-      if (drive%against > 0) direction = turned(direction, &
-        turned(linkage%bodies(drive%against)%heading, pose%direction(:, drive%against)))
-      associate (heading => linkage%bodies(drive%body)%heading)
-        direction = turned([heading(1), -heading(2)], direction)
-      end associate
-    end associate
-  end function drive_direction
-
-  !> Cosine and sine of an angle in degrees. Whole turns are removed first: 0° and 360° are the same
-  !! position to the last digit.
-  pure function direction_at(degrees) result(direction)
-    real(wp), intent(in) :: degrees !! [deg]
-    real(wp) :: direction(2)
-
-    real(wp) :: angle, quadrants
-
-    ! Within ±45° of an axis cosine and sine keep their last digits: 90° gives 0 and 1.
-    angle = modulo(degrees, 360.0_wp)
-    quadrants = anint(angle/90.0_wp)
-    angle = (angle - 90.0_wp*quadrants)*degree
-    direction = [cos(angle), sin(angle)]
-    select case (modulo(nint(quadrants), 4))
-    case (1)
-      direction = [-direction(2), direction(1)]
-    case (2)
-      direction = -direction
-    case (3)
-      direction = [direction(2), -direction(1)]
-    end select
-  end function direction_at
 
   !> Direction and a point of the line of a slider.
   pure subroutine world_line(linkage, pose, number, direction, point)

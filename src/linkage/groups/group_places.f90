@@ -4,8 +4,8 @@ module group_places
   use dense_factor, only: least_singular_value, solve
   use dyad_places, only: limit_slack, place_dyad
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
-  use group_equations, only: drive_direction, drive_value, line_axis, line_offset, misfit_of, &
-    world_line
+  use drive_values, only: drive_direction, drive_value
+  use group_equations, only: line_axis, line_offset, misfit_of, world_line
   use group_factors, only: factorize_group, group_factors_t
   use kinds, only: wp
   use linkages, only: cross, demand_drive, equation_t, group_t, group_carried, &

@@ -10,7 +10,8 @@
 !! velocity, h' the angular acceleration of the true motion of all drives, and ω2 = 1, α2 = 0.
 module kinematic_coefficients
   use dense_factor, only: solve
-  use group_equations, only: curvature_of, find_rates_of_drives, gradient_t
+  use drive_values, only: find_rates_of_drives
+  use group_equations, only: curvature_of, gradient_t
   use group_factors, only: factorize_group, group_factors_t
   use kinds, only: wp
   use linkages, only: demand_drive, group_t, group_carried, group_dyad, linkage_t, normal_to

@@ -4,7 +4,7 @@ module poses
   use bridges, only: bridge_at, cross_bridge, place_on_path
   use dyad_places, only: place_dyad
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
-  use group_equations, only: drive_direction
+  use drive_values, only: drive_direction
   use group_places, only: improve_group, place_group
   use kinds, only: wp
   use linkages, only: bridge_t, group_t, group_by_newton, group_dyad, is_dyad_linkage, &

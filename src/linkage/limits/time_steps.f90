@@ -1,6 +1,6 @@
 !> Steps of the time along the way of a linkage that runs in time.
 module time_steps
-  use group_equations, only: drive_value
+  use drive_values, only: drive_value
   use kinds, only: wp
   use linkages, only: drive_of_angle, linkage_t
   use motion_programs, only: program_breaks

@@ -9,7 +9,7 @@ module load_tables
   use cubic_splines, only: spline_values
   use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
-  use group_equations, only: drive_rate
+  use drive_values, only: drive_rate
   use linkages, only: linkage_t
   use pose_types, only: pose_t
   use pulls, only: counts_turns, deflection

@@ -3,7 +3,7 @@ module coordinate_study
   use constants, only: degree
   use coordinate_types, only: coordinate_t, is_distance, is_sum
   use coordinates, only: coordinate_acceleration, coordinate_rate, coordinate_value, is_turning
-  use group_equations, only: drive_value
+  use drive_values, only: drive_value
   use kinds, only: wp
   use linkages, only: linkage_t
   use pose_types, only: kinematic_coefficients_t, pose_t

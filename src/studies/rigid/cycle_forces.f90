@@ -5,7 +5,7 @@ module cycle_forces
   use gears, only: gear_share, gear_t, is_direct
   use joint_study, only: bearing_values, bearings_at_speed, drives_at_speed, find_joints, &
     joints_at_speed, joints_result_t
-  use group_equations, only: find_rates_of_drives
+  use drive_values, only: find_rates_of_drives
   use kinds, only: wp
   use linkages, only: drive_of_angle, linkage_t
   use motion_programs, only: motion_program_t, program_values

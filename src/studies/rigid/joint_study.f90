@@ -15,7 +15,7 @@ module joint_study
   use errors, only: error_t, outcome_t
   use frame_forces, only: find_frame_load
   use ground_loads, only: pulls_on_ground
-  use group_equations, only: drive_value, find_rates_of_drives
+  use drive_values, only: drive_value, find_rates_of_drives
   use joint_forces, only: force_at_pin, joint_forces_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t

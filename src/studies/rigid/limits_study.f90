@@ -7,7 +7,8 @@ module limits_study
   use crank_limits, only: crank_range_t, find_ranges, find_ranges_of_deck
   use dead_points, only: find_low_points
   use four_bar_loops, only: four_bar_t
-  use group_equations, only: drive_value, line_offset
+  use drive_values, only: drive_value
+  use group_equations, only: line_offset
   use kinds, only: wp
   use limited_quantities, only: angle_of_body, place_of_slider, pressure_of_lever, &
     pressure_of_slider, quantity_t, transmission_of_dyad, transmission_of_lines, &

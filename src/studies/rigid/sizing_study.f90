@@ -6,7 +6,7 @@ module sizing_study
   use errors, only: error_of_input, error_of_numerics, error_t, set_error
   use flywheels, only: size_flywheel
   use gears, only: gear_t
-  use group_equations, only: drive_value
+  use drive_values, only: drive_value
   use interruption, only: was_interrupted
   use joint_rates, only: joint_rate
   use joint_study, only: joint_t, joints_result_t
