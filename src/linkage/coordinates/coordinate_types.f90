@@ -12,13 +12,16 @@ module coordinate_types
   implicit none (type, external)
   private
 
-  public :: terminal_t, frame_t, twist_t, wrench_t, coordinate_t
+  public :: terminal_t, frame_t, twist_t, wrench_t, coordinate_t, gradient_t, most_terms
   public :: is_distance, is_along, is_across, is_angle, is_sum
 
   !> Kinds: the distance of two places; the place of the second terminal along and across the line
   !! of the first; the angle from the direction of the first to that of the second; a sum of other
   !! coordinates.
   integer, parameter :: is_distance = 1, is_along = 2, is_across = 3, is_angle = 4, is_sum = 5
+
+  !> A sum has no more terms.
+  integer, parameter :: most_terms = 6
 
   !> A frame on a pin, a body or the ground. Only lines and angles use its direction.
   type :: terminal_t
@@ -56,5 +59,15 @@ module coordinate_types
     integer, allocatable :: term(:)    !! (terms) of a sum: numbers of others, which are no sums
     real(wp), allocatable :: weight(:) !! (terms) of a sum
   end type coordinate_t
+
+  !> Derivatives of a coordinate by the positions of pins and the angles of bodies: one entry for
+  !! each terminal that is not on the ground. That of a body has its first pin and its angle.
+  type :: gradient_t
+    integer :: terminals = 0
+    integer :: pin(2*most_terms)  !! first one of the body, or a pin by itself; 0 of an angle
+    integer :: body(2*most_terms) !! 0: a pin by itself
+    real(wp) :: by_pin(2, 2*most_terms) !! (2, terminals) [-]
+    real(wp) :: by_angle(2*most_terms)  !! (terminals) [m], or [-] of angles; 0 of a pin
+  end type gradient_t
 
 end module coordinate_types

@@ -5,21 +5,21 @@
 !! derivatives with respect to the coordinate of the first drive: s' and s''.
 module coordinates
   use constants, only: degree
-  use coordinate_types, only: coordinate_t, frame_t, is_across, is_along, is_angle, is_distance, &
-    is_sum, terminal_t, twist_t, wrench_t
+  use coordinate_types, only: coordinate_t, frame_t, gradient_t, is_across, is_along, is_angle, &
+    is_distance, is_sum, terminal_t, twist_t, wrench_t
   use distances, only: distance_acceleration, find_distance
   use drive_values, only: drive_value
   use kinds, only: wp
   use lines, only: line_acceleration, line_axis, line_couple, line_value
-  use linkages, only: cross, drive_of_angle, linkage_t
+  use linkages, only: cross, drive_of_angle, linkage_t, turned
   use pose_types, only: kinematic_coefficients_t, pose_t
   use terminals, only: frames_of, places_of, terminal_acceleration, terminal_direction, twists_of
   implicit none (type, external)
   private
 
   public :: evaluated_t, evaluate, evaluated_rate
-  public :: coordinate_value, coordinate_rate, coordinate_acceleration, slider_coordinate, &
-    is_turning
+  public :: coordinate_value, coordinate_rate, coordinate_acceleration, add_gradient, &
+    slider_coordinate, is_turning
 
   !> A coordinate at a pose, found once for all that is asked of it there.
   type :: evaluated_t
@@ -31,19 +31,24 @@ module coordinates
 contains
 
   !> What a coordinate is at a pose. The gradient of a sum is that of its terms.
-  pure recursive subroutine evaluate(linkage, pose, coordinate, evaluated, crank)
+  pure recursive subroutine evaluate(linkage, pose, coordinate, evaluated, crank, as_placed)
     type(linkage_t), intent(in) :: linkage !! its bodies, and the terms of a sum
     type(pose_t), intent(in) :: pose       !! positions and directions
     type(coordinate_t), intent(in) :: coordinate
     type(evaluated_t), intent(out) :: evaluated
     real(wp), intent(in), optional :: crank !! coordinate of the first drive, where several have
                                            !! one pose; absent: that of the pose [deg] or [m]
+    logical, intent(in), optional :: as_placed !! as pins and bodies are, whatever a drive gives:
+                                           !! an angle is from −π to π
 
     type(frame_t) :: frame(2)
     type(evaluated_t) :: term
     real(wp) :: place(2, 2), direction(2, 2), at
+    logical :: is_given
     integer :: k
 
+    is_given = coordinate%drive > 0
+    if (present(as_placed)) is_given = is_given .and. .not. as_placed
     evaluated%value = 0.0_wp
     do k = 1, 2
       evaluated%wrench(k)%place = 0.0_wp
@@ -67,7 +72,7 @@ contains
         wrench(1)%force = -wrench(2)%force
         wrench(1)%couple = line_couple(frame, coordinate%kind == is_across)
       case (is_angle)
-        if (coordinate%drive == 0) then
+        if (.not. is_given) then
           direction(:, 1) = terminal_direction(pose, coordinate%at(1))
           direction(:, 2) = terminal_direction(pose, coordinate%at(2))
           ! Adding zero turns −0 into 0.
@@ -78,11 +83,12 @@ contains
         wrench(1)%couple = -1.0_wp
       case (is_sum)
         do k = 1, size(coordinate%term)
-          call evaluate(linkage, pose, linkage%coordinates(coordinate%term(k)), term, crank)
+          call evaluate(linkage, pose, linkage%coordinates(coordinate%term(k)), term, crank, &
+            as_placed)
           value = value + coordinate%weight(k)*term%value
         end do
       end select
-      if (coordinate%drive == 0) return
+      if (.not. is_given) return
       at = pose%crank
       if (present(crank)) at = crank
       value = drive_value(linkage, coordinate%drive, at)
@@ -145,13 +151,15 @@ contains
     end associate
   end function evaluated_rate
 
-  !> Its acceleration [m/s²] or [rad/s²].
-  pure recursive function coordinate_acceleration(linkage, pose, motion, coordinate) &
-    result(acceleration)
+  !> Its acceleration [m/s²] or [rad/s²]; of rates alone, with all pins and bodies moving evenly, it
+  !! is q'ᵀ ∇²s q'.
+  pure recursive function coordinate_acceleration(linkage, pose, motion, coordinate, &
+    of_rates_alone) result(acceleration)
     type(linkage_t), intent(in) :: linkage !! as for `coordinate_value`
     type(pose_t), intent(in) :: pose       !! positions and directions
     type(kinematic_coefficients_t), intent(in) :: motion !! velocities and accelerations
     type(coordinate_t), intent(in) :: coordinate
+    logical, intent(in), optional :: of_rates_alone !! accelerations are not there
     real(wp) :: acceleration
 
     type(twist_t) :: twist(2), slope(2)
@@ -161,13 +169,13 @@ contains
     if (coordinate%kind == is_sum) then
       do i = 1, size(coordinate%term)
         acceleration = acceleration + coordinate%weight(i)*coordinate_acceleration(linkage, pose, &
-          motion, linkage%coordinates(coordinate%term(i)))
+          motion, linkage%coordinates(coordinate%term(i)), of_rates_alone)
       end do
       return
     end if
     twist = twists_of(linkage, pose, motion, coordinate%at)
     do i = 1, 2
-      slope(i) = terminal_acceleration(linkage, pose, motion, coordinate%at(i))
+      slope(i) = terminal_acceleration(linkage, pose, motion, coordinate%at(i), of_rates_alone)
     end do
     select case (coordinate%kind)
     case (is_distance)
@@ -179,6 +187,44 @@ contains
       acceleration = slope(2)%turn - slope(1)%turn
     end select
   end function coordinate_acceleration
+
+  !> Adds its derivatives, times a weight, to those of others.
+  pure recursive subroutine add_gradient(linkage, pose, coordinate, weight, gradient)
+    type(linkage_t), intent(in) :: linkage        !! as for `evaluate`
+    type(pose_t), intent(in) :: pose
+    type(coordinate_t), intent(in) :: coordinate
+    real(wp), intent(in) :: weight                !! 1 of itself
+    type(gradient_t), intent(inout) :: gradient   !! has room: a sum has `most_terms`
+
+    type(evaluated_t) :: it
+    integer :: i, n
+
+    if (coordinate%kind == is_sum) then
+      do i = 1, size(coordinate%term)
+        call add_gradient(linkage, pose, linkage%coordinates(coordinate%term(i)), &
+          weight*coordinate%weight(i), gradient)
+      end do
+      return
+    end if
+    call evaluate(linkage, pose, coordinate, it, as_placed=.true.)
+    do i = 1, 2
+      associate (at => coordinate%at(i), wrench => it%wrench(i))
+        if (at%body == 0 .and. at%pin == 0) cycle
+        n = gradient%terminals + 1
+        gradient%terminals = n
+        gradient%body(n) = at%body
+        gradient%pin(n) = at%pin
+        gradient%by_pin(:, n) = weight*wrench%force
+        gradient%by_angle(n) = 0.0_wp
+        if (at%body == 0) cycle
+        gradient%by_angle(n) = weight*wrench%couple
+        if (coordinate%kind == is_angle) cycle
+        gradient%pin(n) = linkage%bodies(at%body)%first_pin
+        gradient%by_angle(n) = gradient%by_angle(n) + weight*cross(turned(at%place, &
+          pose%direction(:, at%body)), wrench%force)
+      end associate
+    end do
+  end subroutine add_gradient
 
   !> Whether it is an angle, not a length.
   pure function is_turning(linkage, coordinate) result(is)

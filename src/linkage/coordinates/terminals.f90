@@ -100,23 +100,31 @@ contains
     end do
   end function twists_of
 
-  !> Accelerations of a terminal: x'' = x_first'' + h' n − h² r.
-  pure function terminal_acceleration(linkage, pose, motion, at) result(slope)
+  !> Accelerations of a terminal: x'' = x_first'' + h' n − h² r; of rates alone −h² r.
+  pure function terminal_acceleration(linkage, pose, motion, at, of_rates_alone) result(slope)
     type(linkage_t), intent(in) :: linkage !! first pins of its bodies
     type(pose_t), intent(in) :: pose       !! directions of its bodies
     type(kinematic_coefficients_t), intent(in) :: motion !! velocities and accelerations
     type(terminal_t), intent(in) :: at
+    logical, intent(in), optional :: of_rates_alone
     type(twist_t) :: slope
 
     real(wp) :: arm(2)
+    logical :: evenly
 
+    evenly = .false.
+    if (present(of_rates_alone)) evenly = of_rates_alone
     slope = twist_t(0.0_wp, 0.0_wp)
     if (at%body > 0) then
       arm = turned(at%place, pose%direction(:, at%body))
+      if (evenly) then
+        slope%velocity = -motion%turn(at%body)**2*arm
+        return
+      end if
       slope%turn = motion%turn_slope(at%body)
       slope%velocity = motion%pin_slope(:, linkage%bodies(at%body)%first_pin) + &
         slope%turn*normal_to(arm) - motion%turn(at%body)**2*arm
-    else if (at%pin > 0) then
+    else if (at%pin > 0 .and. .not. evenly) then
       slope%velocity = motion%pin_slope(:, at%pin)
     end if
   end function terminal_acceleration

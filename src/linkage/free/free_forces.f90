@@ -3,9 +3,10 @@
 module free_forces
   use applied_loads, only: generalised_force
   use body_points, only: find_point_coefficients, point_coefficients_t
+  use coordinate_types, only: gradient_t
   use dense_factor, only: dense_factor_t, factorize, solve, solve_transposed
   use drive_values, only: drive_rate
-  use group_equations, only: find_gradient, gradient_t
+  use group_equations, only: find_gradient
   use inertia_loads, only: load_t
   use joint_forces, only: add_force, joint_forces_t
   use kinds, only: wp
@@ -146,7 +147,7 @@ contains
     integer :: p
 
     right = 0.0_wp
-    right(:size(whole%equations)) = -curvatures(whole, pose, now%turn, now%pin)
+    right(:size(whole%equations)) = -curvatures(whole, pose, now)
     slopes = solve(equations%factor, right)
     bent = now
     bent%turn_slope = slopes(whole%at_body)/whole%scale
@@ -290,11 +291,17 @@ contains
     real(wp), intent(in) :: lambda
     type(joint_forces_t), intent(inout) :: joints
 
-    if (gradient%pin(2) > 0) joints%on_first(:, gradient%body(1)) = joints%on_first(:, &
-      gradient%body(1)) - lambda*gradient%by_pin(:, 2)
+    integer :: k
+
+    do k = 1, gradient%terminals
+      associate (body => gradient%body(k))
+        if (body > 0 .and. gradient%pin(k) > 0) joints%on_first(:, body) = joints%on_first(:, &
+          body) - lambda*gradient%by_pin(:, k)
+      end associate
+    end do
     select case (equation%kind)
     case (demand_length, demand_angle)
-      call add_force(linkage, equation%body, equation%pin, -lambda*gradient%by_pin(:, 1), joints)
+      call add_force(linkage, equation%body, equation%pin, -lambda*gradient%by_pin(:, 2), joints)
     case (demand_line)
       joints%guide(equation%number) = lambda
     case (demand_turn)
@@ -302,7 +309,7 @@ contains
     case (demand_drive)
       joints%drive(equation%number) = lambda
       if (linkage%drives(equation%number)%kind == drive_of_length) call add_force(linkage, &
-        linkage%drives(equation%number)%body, gradient%pin(1), -lambda*gradient%by_pin(:, 1), &
+        linkage%drives(equation%number)%body, gradient%pin(2), -lambda*gradient%by_pin(:, 2), &
         joints)
     end select
   end subroutine put_equation

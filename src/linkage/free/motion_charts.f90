@@ -99,7 +99,7 @@ contains
       return
     end if
     straight = as_coefficients(system, start)
-    misfit = curvatures(system, chart%pose, straight%turn, straight%pin)
+    misfit = curvatures(system, chart%pose, straight)
     right = 0.0_wp
     right(:m) = -0.5_wp*misfit(chart%chosen)
     q = start + solve(chart%factor, right)
@@ -159,7 +159,7 @@ contains
 
     m = size(chart%chosen)
     now = rates_on(per, rates)
-    bend = curvatures(system, pose, now%turn, now%pin)
+    bend = curvatures(system, pose, now)
     right = 0.0_wp
     right(:m) = -bend(chart%chosen)
     slopes = as_coefficients(system, solve(factor, right))

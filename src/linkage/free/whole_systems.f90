@@ -13,8 +13,9 @@
 !! from a pose near by.
 module whole_systems
   use constants, only: degree
+  use coordinate_types, only: gradient_t
   use drive_values, only: drive_rate
-  use group_equations, only: curvature_of, farthest_arm, find_gradient, gradient_t, misfit_of
+  use group_equations, only: curvature_of, farthest_arm, find_gradient, misfit_of
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: demand_angle, demand_drive, demand_length, drive_of_angle, equation_t, &
@@ -179,7 +180,7 @@ contains
 
     row = 0.0_wp
     call find_gradient(system%linkage, equation, pose, gradient)
-    do k = 1, 2
+    do k = 1, gradient%terminals
       if (gradient%pin(k) > 0) then
         at = system%at_pin(gradient%pin(k))
         if (at >= 0) row(at + 1:at + 2) = row(at + 1:at + 2) + gradient%by_pin(:, k)
@@ -208,21 +209,20 @@ contains
   end function misfits
 
   !> Second derivatives of all equations along velocities of pins and bodies: q'ᵀ ∇²C q'.
-  pure function curvatures(system, pose, turn, pin) result(curvature)
+  pure function curvatures(system, pose, motion) result(curvature)
     type(whole_system_t), intent(in) :: system !! its equations
     type(pose_t), intent(in) :: pose           !! pins and directions
-    real(wp), intent(in) :: turn(:)            !! (bodies) angular velocities
-    real(wp), intent(in) :: pin(:, :)          !! (2, pins) velocities
+    type(kinematic_coefficients_t), intent(in) :: motion !! velocities
     real(wp) :: curvature(size(system%equations))
 
     real(wp) :: rate
     integer :: i
 
     do i = 1, size(curvature)
-      curvature(i) = curvature_of(system%linkage, system%equations(i), pose, turn, pin)
+      curvature(i) = curvature_of(system%linkage, system%equations(i), pose, motion)
       rate = rate_by_gears(system, system%equations(i))
       if (abs(rate) > 0.0_wp) curvature(i) = curvature(i) - rate*curvature_of(system%linkage, &
-        drive_equation(1), pose, turn, pin)
+        drive_equation(1), pose, motion)
     end do
   end function curvatures
 
@@ -235,8 +235,7 @@ contains
     real(wp) :: acceleration
 
     acceleration = rate_along(system, drive_row(system, pose, drive), motion%turn_slope, &
-      motion%pin_slope) + curvature_of(system%linkage, drive_equation(drive), pose, motion%turn, &
-      motion%pin)
+      motion%pin_slope) + curvature_of(system%linkage, drive_equation(drive), pose, motion)
   end function drive_acceleration
 
   !> Coordinate of a drive at a pose: the one within half a turn of a value near by [deg] or [m].

@@ -1,8 +1,9 @@
 !> The equations of groups at a pose, factorized once for all right sides: velocities and
 !! accelerations, positions by Newton's method and, with the transpose, forces of every load case.
 module group_factors
+  use coordinate_types, only: gradient_t
   use dense_factor, only: dense_factor_t, factorize
-  use group_equations, only: farthest_arm, find_gradient, gradient_t
+  use group_equations, only: farthest_arm, find_gradient
   use kinds, only: wp
   use linkages, only: group_carried, group_dyad, group_t, linkage_t
   use pose_types, only: pose_t
@@ -76,7 +77,7 @@ contains
     first_angle = 2*size(group%pins)
     do i = 1, size(group%equations)
       associate (gradient => factors%gradient(i))
-        do k = 1, 2
+        do k = 1, gradient%terminals
           at = findloc(group%pins, gradient%pin(k), dim=1)
           if (at > 0) matrix(i, 2*at - 1:2*at) = matrix(i, 2*at - 1:2*at) + gradient%by_pin(:, k)
           at = findloc(group%bodies, gradient%body(k), dim=1)

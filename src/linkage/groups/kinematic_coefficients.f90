@@ -9,9 +9,10 @@
 !! Of a linkage that runs in time all derivatives are with respect to the time: h is the angular
 !! velocity, h' the angular acceleration of the true motion of all drives, and ω2 = 1, α2 = 0.
 module kinematic_coefficients
+  use coordinate_types, only: gradient_t
   use dense_factor, only: solve
   use drive_values, only: find_rates_of_drives
-  use group_equations, only: curvature_of, gradient_t
+  use group_equations, only: curvature_of
   use group_factors, only: factorize_group, group_factors_t
   use kinds, only: wp
   use linkages, only: demand_drive, group_t, group_carried, group_dyad, linkage_t, normal_to
@@ -179,7 +180,7 @@ contains
     if (.not. with_slopes) return
     do i = 1, size(group%equations)
       right(i) = -along(factors%gradient(i), coefficients%pin_slope, coefficients%turn_slope) - &
-        curvature_of(linkage, group%equations(i), pose, coefficients%turn, coefficients%pin)
+        curvature_of(linkage, group%equations(i), pose, coefficients)
       if (linkage%runs_in_time .and. group%equations(i)%kind == demand_drive) right(i) = &
         right(i) + accelerations(group%equations(i)%number)
     end do
@@ -213,7 +214,7 @@ contains
     integer :: k
 
     rate = 0.0_wp
-    do k = 1, 2
+    do k = 1, gradient%terminals
       if (gradient%pin(k) > 0) rate = rate + dot_product(gradient%by_pin(:, k), pin(:, &
         gradient%pin(k)))
       if (gradient%body(k) > 0) rate = rate + gradient%by_angle(k)*turn(gradient%body(k))

@@ -3,11 +3,12 @@
 !! which pins nothing holds.
 module plan_iterations
   use body_axes, only: choose_pins, other_pin
+  use coordinate_types, only: coordinate_t, is_angle, is_distance, is_sum
   use drawn_places, only: needed_places
-  use group_equations, only: unknowns_of
+  use group_equations, only: held_coordinate, unknowns_of
+  use kinds, only: wp
   use linkages, only: demand_angle, demand_drive, demand_length, demand_line, demand_turn, &
-    drive_of_angle, drive_of_length, drive_of_nothing, drive_of_slider, equation_t, group_t, &
-    group_by_newton, linkage_t
+    drive_of_nothing, equation_t, group_t, group_by_newton, linkage_t
   use plan_equations, only: append_equation, drive_equation, length_drive, is_used, &
     line_equation, pin_equation, turn_equation
   use plan_problems, only: new_problem, plan_problem_t, problem_not_drawn, problem_too_free
@@ -222,50 +223,37 @@ contains
     allocate (has(2*size(pins) + size(bodies), size(equations)))
     has = .false.
     do i = 1, size(equations)
-      associate (equation => equations(i))
-        select case (equation%kind)
-        case (demand_length)
-          call mark(pins, equation%pin, 2, 0, has(:, i))
-          call mark(pins, linkage%bodies(equation%body)%first_pin, 2, 0, has(:, i))
-        case (demand_angle)
-          call mark(pins, equation%pin, 2, 0, has(:, i))
-          call mark(pins, linkage%bodies(equation%body)%first_pin, 2, 0, has(:, i))
-          call mark(bodies, equation%body, 1, 2*size(pins), has(:, i))
-        case (demand_line)
-          call mark_line(equation%number, has(:, i))
-        case (demand_turn)
-          call mark(bodies, linkage%turns(equation%number)%body, 1, 2*size(pins), has(:, i))
-          call mark(bodies, linkage%turns(equation%number)%against, 1, 2*size(pins), has(:, i))
-        case (demand_drive)
-          associate (drive => linkage%drives(equation%number))
-            select case (drive%kind)
-            case (drive_of_angle)
-              call mark(bodies, drive%body, 1, 2*size(pins), has(:, i))
-              call mark(bodies, drive%against, 1, 2*size(pins), has(:, i))
-            case (drive_of_slider)
-              call mark_line(drive%slider, has(:, i))
-            case (drive_of_length)
-              call mark(pins, linkage%bodies(drive%body)%first_pin, 2, 0, has(:, i))
-              call mark(pins, linkage%bodies(drive%body)%last_pin, 2, 0, has(:, i))
-            end select
-          end associate
-        end select
+      call mark_coordinate(linkage, held_coordinate(linkage, equations(i)), pins, bodies, has(:, i))
+    end do
+  end subroutine find_dependence
+
+  !> Marks the unknowns on which a coordinate depends.
+  pure recursive subroutine mark_coordinate(linkage, coordinate, pins, bodies, row)
+    type(linkage_t), intent(in) :: linkage
+    type(coordinate_t), intent(in) :: coordinate
+    integer, intent(in) :: pins(:), bodies(:) !! unknown
+    logical, intent(inout) :: row(:)
+
+    integer :: i
+
+    if (coordinate%kind == is_sum) then
+      do i = 1, size(coordinate%term)
+        call mark_coordinate(linkage, linkage%coordinates(coordinate%term(i)), pins, bodies, row)
+      end do
+      return
+    end if
+    do i = 1, 2
+      associate (at => coordinate%at(i))
+        call mark(pins, at%pin, 2, 0, row)
+        if (at%body == 0) cycle
+        if (coordinate%kind /= is_angle) call mark(pins, linkage%bodies(at%body)%first_pin, 2, 0, &
+          row)
+        ! The distance from the first pin of a body is the same however it turns.
+        if (coordinate%kind /= is_distance .or. any(abs(at%place) > 0.0_wp)) call mark(bodies, &
+          at%body, 1, 2*size(pins), row)
       end associate
     end do
-
-  contains
-
-    pure subroutine mark_line(number, row)
-      integer, intent(in) :: number !! of the slider
-      logical, intent(inout) :: row(:)
-
-      call mark(pins, linkage%sliders(number)%pin, 2, 0, row)
-      if (linkage%sliders(number)%body == 0) return
-      call mark(pins, linkage%bodies(linkage%sliders(number)%body)%first_pin, 2, 0, row)
-      call mark(bodies, linkage%sliders(number)%body, 1, 2*size(pins), row)
-    end subroutine mark_line
-
-  end subroutine find_dependence
+  end subroutine mark_coordinate
 
   !> Marks the unknowns of a pin or a body, if it is one of those listed.
   pure subroutine mark(list, number, each, before, row)

@@ -2,8 +2,9 @@
 !! at every one.
 module singular_drawings
   use constants, only: degree
+  use coordinate_types, only: gradient_t
   use dense_factor, only: dense_factor_t, factorize, solve
-  use group_equations, only: farthest_arm, find_gradient, gradient_t, misfit_of
+  use group_equations, only: farthest_arm, find_gradient, misfit_of
   use kinds, only: wp
   use linkages, only: demand_angle, demand_length, drive_of_nothing, follows_angle, &
     equation_t, linkage_t, reference_point, turned
@@ -165,13 +166,14 @@ contains
     do i = 1, size(equations)
       misfits(i) = misfit_of(linkage, equations(i), pose, crank)
       call find_gradient(linkage, equations(i), pose, gradient)
-      do k = 1, 2
+      do k = 1, gradient%terminals
         associate (pin => gradient%pin(k), body => gradient%body(k))
           if (pin > 0) then
-            if (.not. linkage%is_ground(pin)) matrix(i, 2*pin - 1:2*pin) = gradient%by_pin(:, k)
+            if (.not. linkage%is_ground(pin)) matrix(i, 2*pin - 1:2*pin) = matrix(i, 2*pin - &
+              1:2*pin) + gradient%by_pin(:, k)
           end if
-          if (body > 0) matrix(i, first_angle + body) = gradient%by_angle(k)/farthest_arm( &
-            linkage%bodies(body))
+          if (body > 0) matrix(i, first_angle + body) = matrix(i, first_angle + body) + &
+            gradient%by_angle(k)/farthest_arm(linkage%bodies(body))
         end associate
       end do
       row = norm2(matrix(i, :))

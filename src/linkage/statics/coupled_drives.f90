@@ -1,7 +1,8 @@
 !> Drives whose forces statics cannot tell apart: a link more than needed joins what they move, and
 !! they can hold it between them with any force.
 module coupled_drives
-  use group_equations, only: find_gradient, gradient_t
+  use coordinate_types, only: gradient_t
+  use group_equations, only: find_gradient
   use group_factors, only: factorize_groups, group_factors_t
   use inertia_loads, only: load_t
   use joint_forces, only: find_joint_forces, joint_forces_t
@@ -39,9 +40,11 @@ contains
       call find_gradient(linkage, linkage%redundancies(redundancy), pose, gradient)
       load = no_load
       pin_load = 0.0_wp
-      do k = 1, 2
-        if (gradient%pin(k) > 0) pin_load(:, gradient%pin(k)) = gradient%by_pin(:, k)
-        if (gradient%body(k) > 0) load(gradient%body(k))%moment = gradient%by_angle(k)
+      do k = 1, gradient%terminals
+        associate (pin => gradient%pin(k), body => gradient%body(k))
+          if (pin > 0) pin_load(:, pin) = pin_load(:, pin) + gradient%by_pin(:, k)
+          if (body > 0) load(body)%moment = load(body)%moment + gradient%by_angle(k)
+        end associate
       end do
       forces = find_joint_forces(linkage, pose, load, pin_load, factors)
       if (.not. allocated(forces%drive)) cycle

@@ -267,20 +267,22 @@ contains
     lambda = solve_transposed(factors%factor, lambda)
     do i = 1, size(group%equations)
       associate (gradient => factors%gradient(i), number => group%equations(i)%number)
-        do k = 1, 2
-          if (gradient%body(k) > 0) load(gradient%body(k))%moment = &
-            load(gradient%body(k))%moment + lambda(i)*gradient%by_angle(k)
+        do k = 1, gradient%terminals
+          associate (body => gradient%body(k), pin => gradient%pin(k), force => &
+            lambda(i)*gradient%by_pin(:, k))
+            if (body > 0) load(body)%moment = load(body)%moment + lambda(i)*gradient%by_angle(k)
+            if (pin == 0) cycle
+            if (body > 0) then
+              call load_first_pin(linkage, is_passed(body), body, force, carried, load, forces)
+            else
+              carried(:, pin) = carried(:, pin) + force
+            end if
+          end associate
         end do
-        if (gradient%pin(1) > 0) then
-          carried(:, gradient%pin(1)) = carried(:, gradient%pin(1)) + &
-            lambda(i)*gradient%by_pin(:, 1)
-          if (gradient%pin(2) > 0) call load_first_pin(linkage, is_passed(gradient%body(1)), &
-            gradient%body(1), lambda(i)*gradient%by_pin(:, 2), carried, load, forces)
-        end if
         select case (group%equations(i)%kind)
         case (demand_length, demand_angle)
           call add_force(linkage, group%equations(i)%body, group%equations(i)%pin, &
-            -lambda(i)*gradient%by_pin(:, 1), forces)
+            -lambda(i)*gradient%by_pin(:, 2), forces)
         case (demand_line)
           forces%guide(number) = lambda(i)
         case (demand_turn)
@@ -288,7 +290,7 @@ contains
         case (demand_drive)
           forces%drive(number) = lambda(i)
           if (linkage%drives(number)%kind == drive_of_length) call add_force(linkage, &
-            linkage%drives(number)%body, gradient%pin(1), -lambda(i)*gradient%by_pin(:, 1), forces)
+            linkage%drives(number)%body, gradient%pin(2), -lambda(i)*gradient%by_pin(:, 2), forces)
         end select
       end associate
     end do
