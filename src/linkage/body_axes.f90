@@ -19,7 +19,7 @@ contains
     real(wp) :: origin(2), axis(2), length
     integer, allocatable :: pins(:)
     real(wp), allocatable :: places(:, :)
-    integer :: i, filled
+    integer :: i, k, filled
 
     associate (it => linkage%bodies(body))
       if (it%first_pin == first .and. it%last_pin == last) return
@@ -56,6 +56,17 @@ contains
       linkage%sliders(i)%point = turned_back(linkage%sliders(i)%point - origin, axis)
       linkage%sliders(i)%direction = turned_back(linkage%sliders(i)%direction, axis)
     end do
+    if (allocated(linkage%coordinates)) then
+      do i = 1, size(linkage%coordinates)
+        do k = 1, 2
+          associate (at => linkage%coordinates(i)%at(k))
+            if (at%body /= body) cycle
+            at%place = turned_back(at%place - origin, axis)
+            at%direction = turned_back(at%direction, axis)
+          end associate
+        end do
+      end do
+    end if
     do i = 1, size(linkage%turns)
       if (linkage%turns(i)%body == body) linkage%turns(i)%relative = turned(axis, &
         linkage%turns(i)%relative)

@@ -26,7 +26,8 @@ module linkages
     drawing_t, equation_t, group_t, path_t, bridge_t, shaft_t
   public :: mobility, reference_point, is_dyad_linkage, follows_angle, cross, normal_to, turned, &
     turned_back
-  public :: drive_of_nothing, drive_of_angle, drive_of_slider, drive_of_length
+  public :: drive_of_nothing, drive_of_angle, drive_of_slider, drive_of_length, &
+    drive_of_coordinate, gives_angle
   public :: rule_through, rule_stop, rule_branch
   public :: demand_length, demand_angle, demand_line, demand_turn, demand_drive
   public :: group_dyad, group_carried, group_on_line, group_through_pin, group_two_lines, &
@@ -38,6 +39,7 @@ module linkages
   integer, parameter :: drive_of_angle = 1   !! the angle of a body
   integer, parameter :: drive_of_slider = 2  !! the place of a slider along its line
   integer, parameter :: drive_of_length = 3  !! the length of a body
+  integer, parameter :: drive_of_coordinate = 4 !! any coordinate that has a name
 
   !> What happens at a change point.
   integer, parameter :: rule_through = 1 !! the linkage goes on smoothly
@@ -147,6 +149,8 @@ module linkages
     integer :: body = 0               !! that turns, or whose length changes
     integer :: against = 0            !! body from which its angle is measured; 0: the ground
     integer :: slider = 0             !! that is moved
+    integer :: coordinate = 0         !! that is given, number
+    logical :: is_angle = .false.     !! this coordinate is one; else a length
     real(wp) :: ratio = 1.0_wp        !! to the first drive's [-], or between angle and length
                                       !! [m/deg], [deg/m]
     real(wp) :: phase = 0.0_wp        !! [deg] or [m]
@@ -333,8 +337,16 @@ contains
     type(linkage_t), intent(in) :: linkage !! its drives
     logical :: follows
 
-    follows = linkage%drives(1)%kind == drive_of_angle .and. .not. linkage%runs_in_time
+    follows = gives_angle(linkage%drives(1)) .and. .not. linkage%runs_in_time
   end function follows_angle
+
+  !> Whether a drive gives an angle, in degrees; else a length.
+  elemental function gives_angle(drive) result(is)
+    type(drive_t), intent(in) :: drive
+    logical :: is
+
+    is = drive%kind == drive_of_angle .or. drive%kind == drive_of_coordinate .and. drive%is_angle
+  end function gives_angle
 
   !> Component of `a × b` normal to the plane.
   pure function cross(a, b)

@@ -11,11 +11,11 @@ module coordinate_builder
   use named_coordinates, only: coordinate_number, find_named_coordinates, named_coordinate_t, &
     of_measure, of_ram, of_slider, of_spring
   use process_cards, only: over_measure
-  use spring_builder, only: angle_between, place_of
+  use spring_builder, only: angle_between, coordinate_of_spring, place_of
   implicit none (type, external)
   private
 
-  public :: build_coordinates, listed_coordinate_t
+  public :: build_coordinates, list_coordinates, listed_coordinate_t
 
   !> A coordinate of the linkage, by its number there, and what acts along it.
   type :: listed_coordinate_t
@@ -26,8 +26,8 @@ module coordinate_builder
 
 contains
 
-  !> The coordinates of springs and dampers, rams, sliders and measures, in this order, and what
-  !! tables of loads are over among them.
+  !> The coordinates of springs and dampers, rams, sliders and measures, in this order, and which of
+  !! them loads are along and over.
   pure subroutine build_coordinates(model, links, pins, linkage, listed)
     type(model_t), intent(in) :: model         !! without errors
     integer, intent(in) :: links(:)            !! (bodies) numbers of their links in the model
@@ -39,34 +39,11 @@ contains
     type(named_coordinate_t), allocatable :: named(:)
     integer :: i
 
+    call list_coordinates(model, links, pins, linkage, listed)
     call find_named_coordinates(model, named)
-    allocate (linkage%coordinates(size(named)), listed(size(named)))
-    do i = 1, size(named)
-      listed(i)%name = named(i)%name
-      listed(i)%is_angle = named(i)%is_angle
-      associate (it => linkage%coordinates(i), number => named(i)%number)
-        select case (named(i)%source)
-        case (of_spring)
-          associate (spring => linkage%loads(size(model%processes) + number))
-            spring%coordinate = i
-            it = spring%along
-          end associate
-          it%at = [terminal_of(linkage, it%at(1)), terminal_of(linkage, it%at(2))]
-        case (of_ram)
-          listed(i)%drive = number
-          it%drive = held_by(linkage, number)
-          associate (body => linkage%bodies(linkage%drives(number)%body))
-            it%at(1)%pin = body%first_pin
-            it%at(2)%pin = body%last_pin
-          end associate
-        case (of_slider)
-          listed(i)%drive = findloc(linkage%drives%slider, number, dim=1)
-          it = slider_coordinate(linkage, number)
-          it%drive = held_by(linkage, listed(i)%drive)
-        case (of_measure)
-          call take_measure(model, links, pins, named, model%measures(number), linkage, it)
-        end select
-      end associate
+    ! Those of springs come first.
+    do i = 1, size(model%springs)
+      linkage%loads(size(model%processes) + i)%coordinate = i
     end do
     do i = 1, size(model%processes)
       associate (process => model%processes(i))
@@ -76,6 +53,50 @@ contains
       end associate
     end do
   end subroutine build_coordinates
+
+  !> The coordinates alone: a plan needs those that drives give.
+  pure subroutine list_coordinates(model, links, pins, linkage, listed)
+    type(model_t), intent(in) :: model         !! without errors
+    integer, intent(in) :: links(:)            !! (bodies) numbers of their links in the model
+    type(name_index_t), intent(in) :: pins     !! names of the pins
+    type(linkage_t), intent(inout) :: linkage  !! gets coordinates
+    type(listed_coordinate_t), allocatable, intent(out), optional :: listed(:) !! (coordinates)
+
+    type(named_coordinate_t), allocatable :: named(:)
+    integer :: drive, i
+
+    call find_named_coordinates(model, named)
+    if (allocated(linkage%coordinates)) deallocate (linkage%coordinates)
+    allocate (linkage%coordinates(size(named)))
+    if (present(listed)) allocate (listed(size(named)))
+    do i = 1, size(named)
+      associate (it => linkage%coordinates(i), number => named(i)%number)
+        drive = 0
+        select case (named(i)%source)
+        case (of_spring)
+          it = coordinate_of_spring(model, links, pins, linkage, number)
+          it%at = [terminal_of(linkage, it%at(1)), terminal_of(linkage, it%at(2))]
+        case (of_ram)
+          drive = number
+          associate (body => linkage%bodies(linkage%drives(number)%body))
+            it%at(1)%pin = body%first_pin
+            it%at(2)%pin = body%last_pin
+          end associate
+        case (of_slider)
+          drive = findloc(linkage%drives%slider, number, dim=1)
+          it = slider_coordinate(linkage, number)
+        case (of_measure)
+          drive = findloc(model%drives%measure, number, dim=1)
+          call take_measure(model, links, pins, named, model%measures(number), linkage, it)
+        end select
+        if (drive > 0) it%drive = held_by(linkage, drive)
+        if (.not. present(listed)) cycle
+        listed(i)%name = named(i)%name
+        listed(i)%is_angle = named(i)%is_angle
+        listed(i)%drive = drive
+      end associate
+    end do
+  end subroutine list_coordinates
 
   !> A terminal at a place of a spring, which counts fixed places from a ground pivot.
   pure function terminal_of(linkage, place) result(at)

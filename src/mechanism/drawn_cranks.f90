@@ -4,7 +4,7 @@ module drawn_cranks
   use group_equations, only: misfit_of
   use kinds, only: wp
   use linkage_paths, only: period_of
-  use linkages, only: demand_drive, drive_of_angle, equation_t, linkage_t
+  use linkages, only: demand_drive, gives_angle, equation_t, linkage_t
   use models, only: model_t, report_number, runs_in_time
   use pose_types, only: drawn_pose, pose_t
   implicit none (type, external)
@@ -58,7 +58,7 @@ contains
     ! The drive is off by the coordinate that is sought.
     pose = drawn_pose(linkage, [0.0_wp, 0.0_wp])
     crank = misfit_of(linkage, equation_t(demand_drive, number=1), pose, 0.0_wp)
-    if (linkage%drives(1)%kind /= drive_of_angle) return
+    if (.not. gives_angle(linkage%drives(1))) return
     crank = crank/degree
     nearest = 0
     least = huge(least)
@@ -140,7 +140,7 @@ contains
     do i = first, size(linkage%drives)
       if (.not. abs(linkage%drives(i)%ratio) > 0.0_wp) cycle
       one = abs(misfit_of(linkage, equation_t(demand_drive, number=i), drawn, crank))
-      if (linkage%drives(i)%kind /= drive_of_angle) one = one/maxval(linkage%bodies%length)
+      if (.not. gives_angle(linkage%drives(i))) one = one/maxval(linkage%bodies%length)
       misfit = misfit + one
     end do
   end function misfit_of_drives

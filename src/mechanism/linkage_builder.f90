@@ -3,7 +3,8 @@ module linkage_builder
   use assembly_plan, only: plan_linkage
   use chosen_assemblies, only: choose_assembly
   use constants, only: degree
-  use drive_cards, only: branch_backward, branch_left, branch_right, drive_ram, &
+  use coordinate_builder, only: list_coordinates
+  use drive_cards, only: branch_backward, branch_left, branch_right, drive_card_t, drive_ram, &
     drive_slider, moves_along
   use drawn_cranks, only: starting_cranks
   use drawn_places, only: complete_drawing
@@ -14,12 +15,14 @@ module linkage_builder
   use link_cards, only: has_own_mass, segment_count
   use link_shapes, only: find_drawn_link, find_drawn_pin, find_link_shape
   use linkage_paths, only: follow_path
-  use linkages, only: body_t, drive_of_angle, drive_of_length, drive_of_nothing, drive_of_slider, &
-    linkage_t
+  use linkages, only: body_t, drive_of_angle, drive_of_coordinate, drive_of_length, &
+    drive_of_nothing, drive_of_slider, drive_t, linkage_t
+  use measure_cards, only: measure_along, measure_angle
   use models, only: is_four_bar, is_pin, model_t, report_number, rule_at_change_points, &
     runs_in_time
   use motion_programs, only: program_period
   use name_index, only: find_name, name_index_t, new_name_index
+  use named_coordinates, only: measured_coordinate
   use plan_problems, only: plan_problem_t
   use plan_sides, only: side_t, undecided_t
   use pose_types, only: pose_t
@@ -181,6 +184,7 @@ contains
     call take_sliders(model, pins, assembly%link, linkage)
     call take_turns(model, pins, assembly%link, linkage)
     call take_drives(model, assembly%link, linkage)
+    call list_coordinates(model, assembly%link, pins, linkage)
     call take_sides(model, pins, sides)
     if (size(model%drawn_pins) > 0) call complete_drawing(linkage, model%crank%value)
     assembly%linkage = linkage
@@ -457,6 +461,7 @@ contains
         if (card%against_link > 0 .and. drive%kind == drive_of_angle) &
           drive%against = findloc(link, card%against_link, dim=1)
         if (drive%kind == drive_of_slider) drive%slider = card%slider
+        if (card%measure > 0) call take_measured(model, card, link, drive)
         if (i == 1) cycle
         unit = 1.0_wp
         if (.not. moves_along(card%kind)) unit = 1.0_wp/degree
@@ -473,6 +478,35 @@ contains
       end associate
     end do
   end subroutine take_drives
+
+  !> A drive of a MEASURE: of the angle of a link, or of a pin along the line on which it slides,
+  !! as if these were driven by name.
+  pure subroutine take_measured(model, card, link, drive)
+    type(model_t), intent(in) :: model
+    type(drive_card_t), intent(in) :: card
+    integer, intent(in) :: link(:)
+    type(drive_t), intent(inout) :: drive
+
+    integer :: i
+
+    associate (measure => model%measures(card%measure))
+      if (measure%kind == measure_angle) then
+        drive%body = findloc(link, measure%link(1), dim=1)
+        if (measure%link(2) > 0) drive%against = findloc(link, measure%link(2), dim=1)
+        return
+      end if
+      drive%kind = drive_of_coordinate
+      drive%coordinate = measured_coordinate(model, card%measure)
+      drive%is_angle = .not. moves_along(card%kind)
+      if (measure%kind /= measure_along) return
+      do i = 1, size(model%sliders)
+        if (.not. same_word(model%sliders(i)%pin%text, measure%places(1)%text)) cycle
+        if (.not. same_word(model%sliders(i)%on%text, measure%line%text)) cycle
+        drive%kind = drive_of_slider
+        drive%slider = i
+      end do
+    end associate
+  end subroutine take_measured
 
   !> Laws of drives, and between which instants they are wanted; a path needs some way.
   pure subroutine take_times(model, linkage)

@@ -16,7 +16,7 @@ module spring_builder
   implicit none (type, external)
   private
 
-  public :: springs_of, place_of, angle_between
+  public :: springs_of, coordinate_of_spring, place_of, angle_between
 
   !> Of a turn: an angle drawn at the first position is there.
   real(wp), parameter :: rounding = 1.0e-9_wp
@@ -31,26 +31,14 @@ contains
     type(linkage_t), intent(in) :: linkage    !! its bodies
     type(applied_load_t), allocatable :: loads(:) !! (springs)
 
-    integer :: i, k
+    integer :: i
 
     allocate (loads(size(model%springs)))
     do i = 1, size(loads)
       associate (load => loads(i), spring => model%springs(i))
         load%kind = applies_along
-        if (spring%turns) then
-          ! One link turns against the ground.
-          if (spring%link(2) > 0) then
-            load%along = angle_between(linkage, findloc(links, spring%link(1), dim=1), &
-              findloc(links, spring%link(2), dim=1))
-          else
-            load%along = angle_between(linkage, 0, findloc(links, spring%link(1), dim=1))
-          end if
-          load%hinge = find_name(pins, spring%ends(1)%text)
-        else
-          do k = 1, 2
-            load%along%at(k) = place_of(model, links, pins, linkage, spring%ends(k)%text)
-          end do
-        end if
+        load%along = coordinate_of_spring(model, links, pins, linkage, i)
+        if (spring%turns) load%hinge = find_name(pins, spring%ends(1)%text)
         load%stiffness = spring%stiffness
         load%damping = spring%damping
         if (.not. spring%damps) call set_rest(model, pins, linkage, spring, load)
@@ -62,6 +50,32 @@ contains
       end associate
     end do
   end function springs_of
+
+  !> The coordinate of a spring or damper. Fixed places are counted from a ground pivot.
+  pure function coordinate_of_spring(model, links, pins, linkage, number) result(coordinate)
+    type(model_t), intent(in) :: model      !! without errors
+    integer, intent(in) :: links(:)         !! (bodies) numbers of their links in the model
+    type(name_index_t), intent(in) :: pins  !! names of the pins
+    type(linkage_t), intent(in) :: linkage  !! bodies and drives
+    integer, intent(in) :: number           !! of the spring, from 1
+    type(coordinate_t) :: coordinate
+
+    integer :: k
+
+    associate (spring => model%springs(number))
+      if (spring%turns .and. spring%link(2) > 0) then
+        coordinate = angle_between(linkage, findloc(links, spring%link(1), dim=1), &
+          findloc(links, spring%link(2), dim=1))
+      else if (spring%turns) then
+        ! One link turns against the ground.
+        coordinate = angle_between(linkage, 0, findloc(links, spring%link(1), dim=1))
+      else
+        do k = 1, 2
+          coordinate%at(k) = place_of(model, links, pins, linkage, spring%ends(k)%text)
+        end do
+      end if
+    end associate
+  end function coordinate_of_spring
 
   !> The angle of a body less that of another one or of the ground; with whole turns where a drive
   !! gives it at every position.

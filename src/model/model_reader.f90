@@ -9,7 +9,7 @@ module model_reader
   use card_table, only: card_kind_number, card_kinds, card_names
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
-  use drive_cards, only: branch_t, kind_of_drive, moves_along, read_branch, read_drive
+  use drive_cards, only: branch_t, card_named, kind_of_drive, moves_along, read_branch, read_drive
   use drive_checks, only: check_drives
   use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
   use errors, only: error_of_writing
@@ -443,31 +443,16 @@ contains
       if (kind == 0) cycle
       so_far(kind) = so_far(kind) + 1
       on_link = card_kinds(kind)%keyword == "LOAD"
-      if (on_link) on_link = names_link(cards(i), cards)
+      if (on_link .and. size(cards(i)%words) > 0) on_link = card_named(cards, "LINK", &
+        cards(i)%words(1)%text) > 0
       of_length = card_kinds(kind)%keyword == "LAW"
       if (of_length) of_length = law_of_length(cards(i), cards)
       call read_card(cards(i), trim(card_kinds(kind)%keyword), so_far(kind), &
-        cards(min(first_drive, size(cards))), on_link, of_length, reports, diagnostics, model)
+        cards(min(first_drive, size(cards))), on_link, of_length, cards, reports, diagnostics, &
+        model)
     end do
     if (size(model%drives) > 0) model%drive = model%drives(1)%subject
   end subroutine read_model_cards
-
-  !> Whether the first word of a card is the name of a link.
-  pure function names_link(card, cards) result(names)
-    type(card_t), intent(in) :: card
-    type(card_t), intent(in) :: cards(:) !! all of the deck
-    logical :: names
-
-    integer :: i
-
-    names = .true.
-    if (size(card%words) == 0) return
-    do i = 1, size(cards)
-      if (.not. same_word(cards(i)%keyword%text, "LINK") .or. size(cards(i)%words) == 0) cycle
-      if (same_word(cards(i)%words(1)%text, card%words(1)%text)) return
-    end do
-    names = .false.
-  end function names_link
 
   !> Whether a LAW card is that of a drive that moves a slider or a ram: the first DRIVE that has
   !! it, or without one the first of all.
@@ -484,13 +469,13 @@ contains
     is_known = .false.
     do i = 1, size(cards)
       if (.not. same_word(cards(i)%keyword%text, "DRIVE")) cycle
-      if (.not. is_known) of_length = moves_along(kind_of_drive(cards(i)))
+      if (.not. is_known) of_length = moves_along(kind_of_drive(cards(i), cards))
       is_known = .true.
       if (size(law%words) == 0) return
       if (.not. has_value(cards(i), "law")) cycle
       word = value_of(cards(i), "law")
       if (.not. same_word(word%text, law%words(1)%text)) cycle
-      of_length = moves_along(kind_of_drive(cards(i)))
+      of_length = moves_along(kind_of_drive(cards(i), cards))
       return
     end do
   end function law_of_length
@@ -509,7 +494,7 @@ contains
   end function number_of
 
   !> Reads one card. UNITS is read before; INCLUDE, SET and VARY are already carried out.
-  subroutine read_card(card, keyword, number, first_drive, on_link, of_length, reports, &
+  subroutine read_card(card, keyword, number, first_drive, on_link, of_length, cards, reports, &
     diagnostics, model)
     type(card_t), intent(in) :: card
     character(len=*), intent(in) :: keyword       !! as in the table of cards
@@ -517,6 +502,7 @@ contains
     type(card_t), intent(in) :: first_drive       !! the first DRIVE card, if there is one
     logical, intent(in) :: on_link                !! of LOAD: its first word names a link
     logical, intent(in) :: of_length              !! of LAW: it is that of a slider or a ram
+    type(card_t), intent(in) :: cards(:)          !! all of the deck
     type(report_kind_t), intent(in) :: reports(:) !! (kinds) all that exist
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model !! has its units, and its lists their lengths
@@ -526,11 +512,14 @@ contains
     type(torque_card_t) :: torque
     type(process_card_t) :: process
     type(shaft_card_t) :: shaft
+    integer :: first_kind
     logical :: by_length
 
     by_length = .false.
-    if (same_word(first_drive%keyword%text, "DRIVE")) by_length = &
-      moves_along(kind_of_drive(first_drive))
+    if (same_word(first_drive%keyword%text, "DRIVE")) then
+      first_kind = kind_of_drive(first_drive, cards)
+      by_length = moves_along(first_kind)
+    end if
     associate (system => model%units)
       select case (keyword)
       case ("TITLE")
@@ -544,7 +533,8 @@ contains
       case ("LINK")
         call read_link(card, system, diagnostics, model%links(number))
       case ("DRIVE")
-        call read_drive(card, first_drive, system, diagnostics, model%drives(number))
+        call read_drive(card, kind_of_drive(card, cards), first_drive, first_kind, system, &
+          diagnostics, model%drives(number))
       case ("BRANCH")
         call read_branch(card, diagnostics, model%branch, model%branch_word, branch)
         if (branch%pin%line > 0) call append_card(model%branches, branch)

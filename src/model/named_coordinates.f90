@@ -8,7 +8,8 @@ module named_coordinates
   implicit none (type, external)
   private
 
-  public :: named_coordinate_t, find_named_coordinates, coordinate_number, limited_coordinates
+  public :: named_coordinate_t, find_named_coordinates, coordinate_number, measured_coordinate, &
+    limited_coordinates
   public :: of_spring, of_ram, of_slider, of_measure
 
   !> What a coordinate is of.
@@ -114,6 +115,21 @@ contains
     end do
     number = 0
   end function coordinate_number
+
+  !> The number of the coordinate of a MEASURE card.
+  pure function measured_coordinate(model, measure) result(number)
+    type(model_t), intent(in) :: model !! as read
+    integer, intent(in) :: measure     !! number of the card in the model's list
+    integer :: number
+
+    type(named_coordinate_t), allocatable :: list(:)
+
+    call find_named_coordinates(model, list)
+    do number = 1, size(list)
+      if (list(number)%source == of_measure .and. list(number)%number == measure) return
+    end do
+    number = 0
+  end function measured_coordinate
 
   !> Numbers of those whose least and greatest value is told of by their own names: springs,
   !! dampers and measures. A ram has the range of its drive, a slider its stroke.

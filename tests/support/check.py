@@ -262,7 +262,7 @@ def random_linkages():
     """Random linkages against independent solvers, and against themselves described otherwise; `make check-all` compares more."""
     group = Group("random linkages, release")
     for script, count in (("random_loads.py", 36), ("random_load_motions.py", 12), ("force_tables.py", 3), ("welded_sections.py", 2), ("massless.py", 9),
-                          ("metamorphic.py", 6)):
+                          ("metamorphic.py", 6), ("measured_drives.py", 6)):
         run = execute([sys.executable, "-B", os.path.join("tests", "linkages", script), "1", str(count), "--program",
                        program("release"), "--scratch", fresh("linkages", base_name(script))])
         said = run.stdout.strip() + run.stderr.strip()

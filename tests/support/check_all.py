@@ -44,6 +44,7 @@ FAMILIES = [
     ("welded sections", "tests/linkages/welded_sections.py 1 30 --program {program}"),
     ("bodies in equilibrium", "tests/linkages/force_tables.py 1 300 --inputs inputs --program {program}"),
     ("rigid tables", "tests/linkages/rigid_tables.py 1 300 --program {program}"),
+    ("drives of measures", "tests/linkages/measured_drives.py 1 150 --program {program}"),
     ("five-bars with two laws", "tests/linkages/led_five_bars.py 1 40 --program {program}"),
     ("estimates of responses", "tests/stress/estimates_response.py 1 300 --program {program}"),
     ("estimates of validity", "tests/stress/estimates_response.py 1 200 --validity --program {program}"),

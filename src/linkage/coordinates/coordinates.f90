@@ -11,7 +11,7 @@ module coordinates
   use drive_values, only: drive_value
   use kinds, only: wp
   use lines, only: line_acceleration, line_axis, line_couple, line_value
-  use linkages, only: cross, drive_of_angle, linkage_t, turned
+  use linkages, only: cross, gives_angle, linkage_t, turned
   use pose_types, only: kinematic_coefficients_t, pose_t
   use terminals, only: frames_of, places_of, terminal_acceleration, terminal_direction, twists_of
   implicit none (type, external)
@@ -92,7 +92,7 @@ contains
       at = pose%crank
       if (present(crank)) at = crank
       value = drive_value(linkage, coordinate%drive, at)
-      if (linkage%drives(coordinate%drive)%kind == drive_of_angle) value = value*degree
+      if (gives_angle(linkage%drives(coordinate%drive))) value = value*degree
     end associate
   end subroutine evaluate
 

@@ -26,7 +26,7 @@ module linkage_motions
     rate_of_drive, stop_at_end, stop_change_point, stop_energy, stop_many_steps, stop_misfit, &
     stop_no_inertia, stop_steps
   use linkage_samples, only: find_details, linkage_details_t, linkage_sample_t, sample_state
-  use linkages, only: drive_of_angle, linkage_t, reference_point
+  use linkages, only: gives_angle, linkage_t, reference_point
   use load_tables, only: next_row
   use loop_curves, only: change_point_message, choose_branch, curve_point_t, find_point, &
     find_start, new_loop_curve, place_from_crossing, project, reduce
@@ -252,7 +252,7 @@ contains
     associate (system => motion%system)
       f = size(system%free)
       span = span_of(system%whole%linkage)
-      if (system%by_drives .and. system%whole%linkage%drives(1)%kind == drive_of_angle) &
+      if (system%by_drives .and. gives_angle(system%whole%linkage%drives(1))) &
         span = 1.0_wp
       scale(:f) = span
       scale(f + 1:2*f) = max(maxval(abs(motion%state(f + 1:2*f))), span*0.01_wp/step)
@@ -281,7 +281,7 @@ contains
     associate (system => motion%system)
       do k = 1, f
         motion%state(k) = motion%position(k)
-        if (system%whole%linkage%drives(system%free(k))%kind /= drive_of_angle) cycle
+        if (.not. gives_angle(system%whole%linkage%drives(system%free(k)))) cycle
         ! Whole turns are taken away in degrees, where nothing is rounded.
         if (k == 1) system%turned = 360.0_wp*anint(motion%position(k)/360.0_wp)
         if (k == 1) motion%state(k) = motion%position(k) - system%turned
@@ -514,7 +514,7 @@ contains
     associate (system => motion%system)
       do k = 1, size(motion%position)
         motion%position(k) = motion%state(k)
-        if (system%whole%linkage%drives(system%free(k))%kind /= drive_of_angle) cycle
+        if (.not. gives_angle(system%whole%linkage%drives(system%free(k)))) cycle
         motion%position(k) = motion%state(k)/degree
         if (k > 1) cycle
         motion%position(1) = motion%position(1) + system%turned

@@ -25,7 +25,7 @@ module linkage_rates
     kinematic_coefficients_t
   use linkage_instants, only: add_accelerations, add_loads, find_inertia, linkage_instant_t, &
     make_room
-  use linkages, only: drive_of_angle, linkage_t, reference_point
+  use linkages, only: gives_angle, linkage_t, reference_point
   use load_tables, only: refuse_beyond_tables
   use loop_curves, only: curve_point_t, find_point, loop_curve_t
   use loop_poses, only: place_on_curve
@@ -168,7 +168,7 @@ contains
       end if
       if (.not. found) return
       pose%crank = state(1)
-      if (linkage%drives(1)%kind == drive_of_angle) pose%crank = state(1)/degree + self%turned
+      if (gives_angle(linkage%drives(1))) pose%crank = state(1)/degree + self%turned
       call refuse_loads(linkage, instant, error, time)
       found = .not. allocated(error)
       if (present(left) .and. .not. found) call move_alloc(error, left)
@@ -244,7 +244,7 @@ contains
     integer :: i
 
     crank = coordinates(1)
-    if (self%whole%linkage%drives(1)%kind == drive_of_angle) then
+    if (gives_angle(self%whole%linkage%drives(1))) then
       if (.not. abs(crank) < most_angle) then
         call set_error(error, error_of_reach, "the step is too long")
         return
@@ -265,7 +265,7 @@ contains
         associate (drive => linkage%drives(self%free(i)))
           drive%ratio = 0.0_wp
           drive%phase = coordinates(i)
-          if (drive%kind == drive_of_angle) drive%phase = coordinates(i)/degree
+          if (gives_angle(drive)) drive%phase = coordinates(i)/degree
         end associate
       end do
       pose = self%pose
@@ -633,7 +633,7 @@ contains
     coordinate = pose%crank
     if (.not. allocated(self%loop)) coordinate = drive_position(self%whole, pose, 1, &
       self%chart%crank)
-    if (self%whole%linkage%drives(1)%kind == drive_of_angle) coordinate = coordinate*degree
+    if (gives_angle(self%whole%linkage%drives(1))) coordinate = coordinate*degree
   end function coordinate_of
 
   !> The least inertia of the coordinates, as a share of all masses [-].

@@ -11,7 +11,7 @@ module linkage_samples
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkage_instants, only: linkage_instant_t
   use linkage_rates, only: find_instant, find_state, moving_linkage_t, rate_of_drive
-  use linkages, only: drive_of_angle
+  use linkages, only: gives_angle
   use loop_curves, only: closure_error
   use pose_types, only: count_from, pose_t
   use poses, only: dead_point_sine
@@ -92,7 +92,7 @@ contains
       end if
       sample%rate = [(rate_of_drive(system, pose, now, system%free(k)), k=1, size(system%free))]
       if (allocated(system%loop)) call sample_loop(system, state, now, sample)
-      unit = merge(degree, 1.0_wp, linkage%drives(1)%kind == drive_of_angle)
+      unit = merge(degree, 1.0_wp, gives_angle(linkage%drives(1)))
       driven = driven_now(system, time, state, unit*position(1), sample%rate(1))
       sample%torque = driven%torque
       sample%kinetic = rotor_energy(system%gear, sample%rate(1))

@@ -18,7 +18,7 @@ module whole_systems
   use group_equations, only: curvature_of, farthest_arm, find_gradient, misfit_of
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: demand_angle, demand_drive, demand_length, drive_of_angle, equation_t, &
+  use linkages, only: demand_angle, demand_drive, demand_length, gives_angle, equation_t, &
     linkage_t, normal_to
   use plan_equations, only: append_equation, drive_equation, length_drive, line_equation, &
     pin_equation, turn_equation
@@ -249,9 +249,9 @@ contains
     ! The drive's misfit is what its coordinate is above its phase.
     associate (it => system%linkage%drives(drive))
       position = misfit_of(system%linkage, drive_equation(drive), pose, 0.0_wp)
-      if (it%kind == drive_of_angle) position = position/degree
+      if (gives_angle(it)) position = position/degree
       position = position + it%phase
-      if (it%kind == drive_of_angle) position = position + 360.0_wp*anint((near - &
+      if (gives_angle(it)) position = position + 360.0_wp*anint((near - &
         position)/360.0_wp)
     end associate
   end function drive_position

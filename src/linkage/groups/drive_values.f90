@@ -3,7 +3,7 @@
 module drive_values
   use constants, only: degree
   use kinds, only: wp
-  use linkages, only: drive_of_angle, linkage_t, turned
+  use linkages, only: gives_angle, linkage_t, turned
   use motion_programs, only: program_values
   use pose_types, only: pose_t
   implicit none (type, external)
@@ -55,8 +55,8 @@ contains
     real(wp) :: rate
 
     rate = linkage%drives(number)%ratio
-    if (linkage%drives(number)%kind == drive_of_angle) rate = rate*degree
-    if (linkage%drives(1)%kind == drive_of_angle) rate = rate/degree
+    if (gives_angle(linkage%drives(number))) rate = rate*degree
+    if (gives_angle(linkage%drives(1))) rate = rate/degree
     if (number == 1) rate = 1.0_wp
   end function drive_rate
 
@@ -80,7 +80,7 @@ contains
     end if
     do i = 1, size(rates)
       motion = motion_in_time(linkage, i, crank)
-      if (linkage%drives(i)%kind == drive_of_angle) motion = motion*degree
+      if (gives_angle(linkage%drives(i))) motion = motion*degree
       rates(i) = motion(1)
       accelerations(i) = motion(2)
     end do

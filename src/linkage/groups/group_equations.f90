@@ -16,14 +16,15 @@
 !! before the bodies between them are turned. One matrix of gradients serves positions (Newton),
 !! velocities and accelerations, and, transposed, the forces.
 module group_equations
-  use coordinate_types, only: coordinate_t, gradient_t, is_across, is_angle, is_distance
+  use constants, only: degree
+  use coordinate_types, only: coordinate_t, gradient_t, is_across, is_angle, is_distance, is_sum
   use coordinates, only: add_gradient, coordinate_acceleration, evaluate, evaluated_t, &
     slider_coordinate
   use drive_values, only: direction_at, drive_value
   use kinds, only: wp
   use linkages, only: body_t, cross, demand_angle, demand_drive, demand_length, demand_line, &
-    demand_turn, drive_of_angle, drive_of_length, drive_of_slider, equation_t, group_t, &
-    linkage_t, turned
+    demand_turn, drive_of_angle, drive_of_coordinate, drive_of_length, drive_of_slider, &
+    equation_t, gives_angle, group_t, linkage_t, turned
   use pose_types, only: kinematic_coefficients_t, pose_t
   implicit none (type, external)
   private
@@ -33,8 +34,8 @@ module group_equations
 
 contains
 
-  !> The coordinate that an equation holds. The directions of the terminals of an angle are those that
-  !! agree where it is fulfilled; that of a drive is still to be turned by what this gives.
+  !> The coordinate that an equation holds. The terminals of an angle have directions that agree
+  !! where it is fulfilled; the first one of a drive is still to be turned by what this gives.
   pure function held_coordinate(linkage, equation) result(coordinate)
     type(linkage_t), intent(in) :: linkage   !! bodies, sliders, turns and drives
     type(equation_t), intent(in) :: equation !! one of its equations
@@ -84,6 +85,8 @@ contains
         coordinate%kind = is_distance
         coordinate%at(1)%body = drive%body
         coordinate%at(2)%pin = linkage%bodies(drive%body)%last_pin
+      case (drive_of_coordinate)
+        coordinate = linkage%coordinates(drive%coordinate)
       end select
     end associate
   end function driven_coordinate
@@ -109,6 +112,7 @@ contains
     type(coordinate_t) :: coordinate
     type(evaluated_t) :: evaluated
     real(wp) :: target
+    logical :: is_turning
 
     coordinate = held_coordinate(linkage, equation)
     target = 0.0_wp
@@ -121,7 +125,12 @@ contains
       end if
     end if
     call evaluate(linkage, pose, coordinate, evaluated, as_placed=.true.)
+    ! A sum of angles.
+    is_turning = coordinate%kind == is_sum .and. equation%kind == demand_drive
+    if (is_turning) is_turning = gives_angle(linkage%drives(equation%number))
+    if (is_turning) target = target*degree
     misfit = evaluated%value - target
+    if (is_turning) misfit = atan2(sin(misfit), cos(misfit))
   end function misfit_of
 
   !> Second derivative of an equation along the motion without second derivatives of the unknowns:

@@ -3,7 +3,7 @@ module crank_limits
   use errors, only: error_t
   use kinds, only: wp
   use linkage_paths, only: period_of
-  use linkages, only: bridge_t, drive_of_angle, linkage_t
+  use linkages, only: bridge_t, gives_angle, linkage_t
   use low_points, only: find_gap, find_sines
   use pose_types, only: pose_t
   use poses, only: place_links
@@ -57,9 +57,9 @@ contains
 
     allocate (ranges(0))
     period = period_of(linkage)
-    is_angle = linkage%drives(1)%kind == drive_of_angle
+    is_angle = gives_angle(linkage%drives(1))
     if (present(drive)) then
-      is_angle = linkage%drives(drive)%kind == drive_of_angle
+      is_angle = gives_angle(linkage%drives(drive))
       period = merge(360.0_wp, 0.0_wp, is_angle)
     end if
     if (period <= 0.0_wp) then

@@ -10,7 +10,7 @@ module linkage_paths
   use constants, only: degree
   use errors, only: error_of_dead_point, error_of_input, error_t, set_error
   use kinds, only: wp
-  use linkages, only: bridge_t, rule_branch, rule_stop, rule_through, drive_of_angle, &
+  use linkages, only: bridge_t, rule_branch, rule_stop, rule_through, drive_of_angle, gives_angle, &
     follows_angle, group_t, group_by_newton, is_dyad_linkage, linkage_t, path_t, reference_point
   use path_limits, only: approach_t, watch
   use path_steps, only: new_station, station_t, take_step
@@ -326,7 +326,7 @@ contains
 
     span = 0.0_wp
     unit = 1.0_wp
-    if (linkage%drives(1)%kind /= drive_of_angle) unit = 0.01_wp*maxval(linkage%bodies%length)
+    if (.not. gives_angle(linkage%drives(1))) unit = 0.01_wp*maxval(linkage%bodies%length)
     ! Where pins that carry a dyad meet nothing is placed.
     places = [starts(::1 + (size(starts) - 1)/most_places), starts(1) + beside(2:)*unit]
     do i = 1, size(places)

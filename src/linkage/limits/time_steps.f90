@@ -2,7 +2,7 @@
 module time_steps
   use drive_values, only: drive_value
   use kinds, only: wp
-  use linkages, only: drive_of_angle, linkage_t
+  use linkages, only: gives_angle, linkage_t
   use motion_programs, only: program_breaks
   implicit none (type, external)
   private
@@ -34,8 +34,7 @@ contains
         is_far = .false.
         do k = 1, samples
           is_far = is_far .or. abs(drive_value(linkage, d, time + sense*step*k/samples) - &
-            drive_value(linkage, d, time)) > merge(angle, length, linkage%drives(d)%kind == &
-            drive_of_angle)
+            drive_value(linkage, d, time)) > merge(angle, length, gives_angle(linkage%drives(d)))
         end do
         if (.not. is_far .or. step <= spacing(time)) exit
         step = 0.5_wp*step

@@ -1,24 +1,21 @@
 !> What may stand in the way of a plan, and the faults that are seen without one.
 module plan_problems
-  use linkages, only: drive_of_angle, linkage_t
+  use linkages, only: linkage_t
   use pose_types, only: pins_of_body
   implicit none (type, external)
   private
 
   public :: plan_problem_t, new_problem, check_plain_faults
-  public :: problem_too_free, problem_braced, problem_coupler_driven, &
-    problem_no_side, problem_other_bases, problem_drive_idle, problem_not_drawn, &
-    problem_side_idle, problem_sides_differ
+  public :: problem_too_free, problem_braced, problem_no_side, problem_other_bases, &
+    problem_drive_idle, problem_not_drawn, problem_side_idle, problem_sides_differ
 
-  !> What may be wrong: pins that nothing holds; a link that joins two pins of another one; a driven
-  !! link that turns about no ground pivot; a dyad with neither a side nor a drawing; a side that
-  !! names other pins than those that carry the dyad, or is of the other form; a drive that moves
-  !! nothing; pins that only a drawing can place; a side of a pin that has one place only; sides
-  !! that no assembly has together.
-  integer, parameter :: problem_too_free = 1, problem_braced = 2, &
-    problem_coupler_driven = 3, problem_no_side = 4, problem_other_bases = 5, &
-    problem_drive_idle = 6, problem_not_drawn = 7, problem_side_idle = 8, &
-    problem_sides_differ = 9
+  !> What may be wrong: pins that nothing holds; a link that joins two pins of another one; a dyad
+  !! with neither a side nor a drawing; a side that names other pins than those that carry the dyad,
+  !! or is of the other form; a drive that moves nothing; pins that only a drawing can place; a side
+  !! of a pin that has one place only; sides that no assembly has together.
+  integer, parameter :: problem_too_free = 1, problem_braced = 2, problem_no_side = 3, &
+    problem_other_bases = 4, problem_drive_idle = 5, problem_not_drawn = 6, &
+    problem_side_idle = 7, problem_sides_differ = 8
 
   !> Why there is no plan.
   type :: plan_problem_t
@@ -35,38 +32,18 @@ module plan_problems
 
 contains
 
-  !> Faults that need no plan: a driven coupler, links between ground pivots or between pins of one
-  !! other link.
+  !> Faults that need no plan: links between ground pivots or between pins of one other link.
   pure subroutine check_plain_faults(linkage, problem)
     type(linkage_t), intent(in) :: linkage                    !! bodies, turns and drives
     type(plan_problem_t), allocatable, intent(out) :: problem !! the first fault, if there is any
 
     integer :: i
 
-    do i = 1, size(linkage%drives)
-      call check_drive(linkage, i, problem)
-      if (allocated(problem)) return
-    end do
     do i = 1, size(linkage%bodies)
       call check_body(linkage, i, problem)
       if (allocated(problem)) return
     end do
   end subroutine check_plain_faults
-
-  !> A driven angle from the ground is that of a body on a ground pivot, or of one that does not
-  !! turn freely.
-  pure subroutine check_drive(linkage, number, problem)
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: number !! of the drive
-    type(plan_problem_t), allocatable, intent(inout) :: problem
-
-    associate (drive => linkage%drives(number))
-      if (drive%kind /= drive_of_angle .or. drive%against > 0) return
-      if (any(linkage%is_ground(pins_of_body(linkage%bodies(drive%body))))) return
-      if (any(linkage%turns%body == drive%body .and. linkage%turns%against == 0)) return
-      problem = new_problem(problem_coupler_driven, bodies=[drive%body], number=number)
-    end associate
-  end subroutine check_drive
 
   !> A body has one ground pivot at most, and one pin at most in common with any other, unless it
   !! is a beam.

@@ -3,7 +3,7 @@ module superfluous_drives
   use constants, only: degree
   use errors, only: error_t
   use kinds, only: wp
-  use linkages, only: drive_of_angle, linkage_t
+  use linkages, only: gives_angle, linkage_t
   use pose_types, only: pose_t
   use poses, only: place_pins
   use redundancies, only: misfit_of_redundancy
@@ -45,7 +45,7 @@ contains
       step = angle*degree*span
       moved = linkage
       moved%drives(k)%phase = moved%drives(k)%phase + merge(angle, step, &
-        linkage%drives(k)%kind == drive_of_angle)
+        gives_angle(linkage%drives(k)))
       call place_pins(moved, crank, other, error)
       if (allocated(error)) then
         number = 0

@@ -1,9 +1,12 @@
 !> What a linkage puts on the frame: the resultant of all forces at the ground.
 module frame_forces
+  use coordinates, only: evaluate, evaluated_t
+  use ground_loads, only: effort_on_ground
   use group_equations, only: line_axis
   use joint_forces, only: force_at_pin, joint_forces_t
   use kinds, only: wp
-  use linkages, only: cross, drive_of_angle, drive_of_slider, linkage_t, normal_to, reference_point
+  use linkages, only: cross, drive_of_angle, drive_of_coordinate, drive_of_slider, linkage_t, &
+    normal_to, reference_point
   use pose_types, only: pins_of_body
   use poses, only: pose_t
   implicit none (type, external)
@@ -25,6 +28,7 @@ contains
     type(joint_forces_t), intent(in) :: forces !! at this pose
     real(wp) :: load(3)                        !! fx, fy [N], moment about `reference_point` [N m]
 
+    type(evaluated_t) :: driven
     integer :: b, t, d
 
     load = 0.0_wp
@@ -41,8 +45,13 @@ contains
       if (linkage%turns(t)%against == 0) load(3) = load(3) - forces%couple(t)
     end do
     do d = 1, size(linkage%drives)
-      if (linkage%drives(d)%kind == drive_of_angle .and. linkage%drives(d)%against == 0) load(3) = &
-        load(3) - forces%drive(d)
+      associate (drive => linkage%drives(d), effort => forces%drive(d))
+        if (drive%kind == drive_of_angle .and. drive%against == 0) load(3) = load(3) - effort
+        if (drive%kind /= drive_of_coordinate) cycle
+        call evaluate(linkage, pose, linkage%coordinates(drive%coordinate), driven)
+        load = load + effort_on_ground(linkage, pose, linkage%coordinates(drive%coordinate), &
+          driven, effort)
+      end associate
     end do
   end function find_frame_load
 

@@ -3,7 +3,7 @@ module starting_linkages
   use applied_load_types, only: applied_load_t, applies_couple, is_torsional
   use group_equations, only: farthest_arm
   use kinds, only: wp
-  use linkages, only: drive_of_angle, linkage_t
+  use linkages, only: gives_angle, linkage_t
   implicit none (type, external)
   private
 
@@ -29,7 +29,7 @@ contains
     integer :: b
 
     span = maxval([(farthest_arm(linkage%bodies(b)), b=1, size(linkage%bodies))])
-    if (linkage%drives(1)%kind == drive_of_angle) then
+    if (gives_angle(linkage%drives(1))) then
       turning = starting_speed*rounding
       sliding = turning*span
     else

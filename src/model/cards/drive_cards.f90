@@ -15,14 +15,16 @@ module drive_cards
   implicit none (type, external)
   private
 
-  public :: drive_card_t, branch_t, read_drive, read_branch, kind_of_drive, moves_along
-  public :: drive_angle, drive_relative, drive_slider, drive_ram
+  public :: drive_card_t, branch_t, read_drive, read_branch, kind_of_drive, card_named, moves_along
+  public :: drive_angle, drive_relative, drive_slider, drive_ram, drive_measured_length, &
+    drive_measured_angle
   public :: branch_left, branch_right, branch_forward, branch_backward
 
   integer, parameter :: drive_angle = 1    !! the angle of a link
   integer, parameter :: drive_relative = 2 !! the angle of a link minus that of another
   integer, parameter :: drive_slider = 3   !! the place of a slider
   integer, parameter :: drive_ram = 4      !! the length of a link
+  integer, parameter :: drive_measured_length = 5, drive_measured_angle = 6 !! a MEASURE
 
   ! In the order of `branch_words`.
   integer, parameter :: branch_left = 1, branch_right = 2, branch_forward = 3, branch_backward = 4
@@ -35,7 +37,7 @@ module drive_cards
   type :: drive_card_t
     type(token_t) :: keyword
     integer :: kind = 0            !! one of the drive_… constants; 0: it cannot be read
-    type(token_t) :: subject       !! link, or pin of a slider
+    type(token_t) :: subject       !! link, pin of a slider, or MEASURE
     type(token_t) :: against       !! the other link, or the guide or link that the slider is on
     logical :: is_free = .false.   !! its position is given, but it is not held in vibration
     logical :: has_at = .false.    !! `at=` is given
@@ -51,6 +53,7 @@ module drive_cards
     integer :: link = 0            !! number of `subject` in the model's list; 0: it is a pin
     integer :: against_link = 0    !! number of `against` in the model's list; 0: it is none
     integer :: slider = 0          !! number of the slider in the model's list; 0: it is none
+    integer :: measure = 0         !! number of the MEASURE in the model's list; 0: it is none
   end type drive_card_t
 
   !> A BRANCH card about a pin.
@@ -64,15 +67,22 @@ module drive_cards
 
 contains
 
-  !> What a DRIVE card drives: one of the drive_… constants; 0 if its words fit none of them.
-  pure function kind_of_drive(card) result(kind)
-    type(card_t), intent(in) :: card !! the DRIVE card
+  !> What a DRIVE card drives: one of the drive_… constants; 0 if its words fit none of them. A link
+  !! comes before a MEASURE of its name.
+  pure function kind_of_drive(card, cards) result(kind)
+    type(card_t), intent(in) :: card     !! the DRIVE card
+    type(card_t), intent(in) :: cards(:) !! all of the deck
     integer :: kind
+
+    integer :: measure
 
     kind = 0
     select case (word_count(card))
     case (1)
       kind = drive_angle
+      measure = card_named(cards, "MEASURE", card%words(1)%text)
+      if (measure == 0 .or. card_named(cards, "LINK", card%words(1)%text) > 0) return
+      kind = merge(drive_measured_angle, drive_measured_length, is_of_angle(cards(measure), cards))
     case (2)
       kind = merge(drive_ram, drive_slider, same_word(card%words(2)%text, "length"))
     case (3)
@@ -80,12 +90,54 @@ contains
     end select
   end function kind_of_drive
 
+  !> Whether a MEASURE card is about an angle: a sum is as its first term.
+  pure function is_of_angle(measure, cards) result(is)
+    type(card_t), intent(in) :: measure
+    type(card_t), intent(in) :: cards(:)
+    logical :: is
+
+    integer :: term
+
+    is = .false.
+    if (size(measure%words) < 3) return
+    is = same_word(measure%words(2)%text, "angle")
+    if (size(measure%words) < 4 .or. .not. same_word(measure%words(2)%text, "sum")) return
+    associate (name => measure%words(4)%text)
+      term = card_named(cards, "MEASURE", name)
+      if (term > 0) then
+        ! Sums of sums are refused later.
+        if (size(cards(term)%words) > 1) is = same_word(cards(term)%words(2)%text, "angle")
+        return
+      end if
+      term = max(card_named(cards, "SPRING", name), card_named(cards, "DAMPER", name))
+    end associate
+    if (term == 0) return
+    associate (words => cards(term)%words)
+      is = card_named(cards, "LINK", words(size(words))%text) > 0
+    end associate
+  end function is_of_angle
+
+  !> The first card of a keyword whose first word is a name; 0: there is none.
+  pure function card_named(cards, keyword, name) result(number)
+    type(card_t), intent(in) :: cards(:)     !! all of the deck
+    character(len=*), intent(in) :: keyword
+    character(len=*), intent(in) :: name     !! in any case of letters
+    integer :: number
+
+    do number = 1, size(cards)
+      if (.not. same_word(cards(number)%keyword%text, keyword)) cycle
+      if (size(cards(number)%words) == 0) cycle
+      if (same_word(cards(number)%words(1)%text, name)) return
+    end do
+    number = 0
+  end function card_named
+
   !> Whether a drive's position is a length; else it is an angle.
   elemental function moves_along(kind) result(along)
     integer, intent(in) :: kind !! one of the drive_… constants
     logical :: along
 
-    along = kind == drive_slider .or. kind == drive_ram
+    along = kind == drive_slider .or. kind == drive_ram .or. kind == drive_measured_length
   end function moves_along
 
   !> Number of words without `free` at the end.
@@ -98,14 +150,16 @@ contains
     if (same_word(card%words(words)%text, "free")) words = words - 1
   end function word_count
 
-  !> Reads a DRIVE card: `link`, `link against link`, `pin guide` or `link length`, then `free`, and
-  !! `law=`, of the first card `change_points=`, of a further one else `at=` or `ratio= [phase=]`. A
-  !! ratio of a length to an angle is in the deck's length per degree. Errors: words or keys that do
-  !! not fit the card, unreadable values, a first card with a position of its own, a further one
-  !! without any.
-  pure subroutine read_drive(card, first, system, diagnostics, drive)
+  !> Reads a DRIVE card: `link`, `link against link`, `pin guide`, `link length` or `measure`, then
+  !! `free`, and `law=`, of the first card `change_points=`, of a further one else `at=` or
+  !! `ratio= [phase=]`. A ratio of a length to an angle is in the deck's length per degree. Errors:
+  !! words or keys that do not fit the card, unreadable values, a first card with a position of its
+  !! own, a further one without any.
+  pure subroutine read_drive(card, kind, first, first_kind, system, diagnostics, drive)
     type(card_t), intent(in) :: card                  !! the DRIVE card
+    integer, intent(in) :: kind                       !! of `kind_of_drive`
     type(card_t), intent(in) :: first                 !! the first of the deck, perhaps the same
+    integer, intent(in) :: first_kind                 !! its kind
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(drive_card_t), intent(out) :: drive               !! as read; the names are not looked up
@@ -123,6 +177,7 @@ contains
     drive%change_points_word = nowhere
     call check_form(card, diagnostics, fine, known_keys)
     if (.not. fine) return
+    drive%kind = kind
     call read_subject(card, diagnostics, drive)
     if (drive%kind == 0) return
     drive%has_at = has_key(card, "at")
@@ -139,11 +194,11 @@ contains
       return
     end if
     if (has_value(card, "law")) drive%law = value_of(card, "law")
-    call read_position(card, kind_of_drive(first), system, diagnostics, drive)
+    call read_position(card, first_kind, system, diagnostics, drive)
     if (.not. known_keys .or. drive%is_free .or. drive%has_at .or. drive%has_ratio .or. &
       has_key(card, "law")) return
     ! That the same thing is driven twice is found by `drive_checks`.
-    if (drive%kind == kind_of_drive(first) .and. same_word(drive%subject%text, &
+    if (drive%kind == first_kind .and. same_word(drive%subject%text, &
       first%words(1)%text)) return
     call add_error(diagnostics, drive%subject, "the linkage is driven already; a further DRIVE "// &
       "needs a freedom of its own (a linkage of mobility 1 takes one) and 'at=', 'ratio=' or "// &
@@ -186,7 +241,6 @@ contains
 
     words = word_count(card)
     drive%is_free = words < size(card%words)
-    drive%kind = kind_of_drive(card)
     if (drive%kind > 0) drive%subject = card%words(1)
     if (drive%kind == drive_slider) drive%against = card%words(2)
     if (drive%kind == drive_relative) drive%against = card%words(3)

@@ -2,19 +2,23 @@
 module drive_checks
   use body_checks, only: seek_link
   use diagnostics, only: add_error, diagnostics_t, has_errors
-  use drive_cards, only: branch_forward, branch_t, drive_angle, drive_ram, drive_relative, &
-    drive_slider, drive_card_t
+  use drive_cards, only: branch_forward, branch_t, drive_angle, drive_card_t, &
+    drive_measured_angle, drive_measured_length, drive_ram, drive_relative, drive_slider
   use joint_checks, only: seek_pin
+  use measure_cards, only: measure_along, measure_angle
   use models, only: model_t
-  use name_checks, only: pin_names
+  use name_checks, only: kind_of_unknown, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: suggestion
-  use text, only: same_word, string_t
+  use text, only: same_word, string_t, to_string
   use tokens, only: token_t, token_texts
   implicit none (type, external)
   private
 
   public :: check_drives
+
+  !> Of a sum that is driven: as `most_terms` in `src/linkage/coordinates/coordinate_types.f90`.
+  integer, parameter :: most_terms = 6
 
 contains
 
@@ -27,20 +31,23 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(inout) :: model             !! numbers of links and sliders are set
 
-    type(name_index_t) :: links, pins, grounds
+    type(name_index_t) :: links, pins, grounds, measures
     type(drive_card_t) :: drive
     integer :: i
 
     links = new_name_index(token_texts(model%links%name))
     pins = new_name_index(token_texts(pin_names(model)))
     grounds = new_name_index(token_texts(model%grounds%pin))
+    measures = new_name_index(token_texts(model%measures%name))
     do i = 1, size(model%drives)
       drive = model%drives(i)
       select case (drive%kind)
       case (drive_slider)
         call find_driven_slider(diagnostics, model, links, pins, drive)
       case (drive_angle, drive_relative, drive_ram)
-        call find_driven_link(diagnostics, model, links, pins, grounds, drive)
+        call find_driven_link(diagnostics, model, links, pins, grounds, measures, drive)
+      case (drive_measured_length, drive_measured_angle)
+        call find_driven_measure(diagnostics, model, measures, drive)
       end select
       model%drives(i) = drive
     end do
@@ -73,14 +80,22 @@ contains
   end subroutine refuse_clamped
 
   !> Looks up the links of a drive.
-  pure subroutine find_driven_link(diagnostics, model, links, pins, grounds, drive)
+  pure subroutine find_driven_link(diagnostics, model, links, pins, grounds, measures, drive)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
-    type(name_index_t), intent(in) :: links, pins, grounds
+    type(name_index_t), intent(in) :: links, pins, grounds, measures
     type(drive_card_t), intent(inout) :: drive
 
     integer :: i, grounded
 
+    associate (name => drive%subject%text)
+      if (drive%kind == drive_angle .and. find_name(links, name) == 0 .and. find_name(pins, &
+        name) == 0 .and. size(measures%name) > 0) then
+        call add_error(diagnostics, drive%subject, "unknown link or measure '"//name//"'"// &
+          suggestion(name, [links%name, measures%name]), kind=kind_of_unknown(name))
+        return
+      end if
+    end associate
     call seek_link(drive%subject, links, pins, diagnostics, drive%link)
     if (drive%kind == drive_relative) then
       call seek_link(drive%against, links, pins, diagnostics, drive%against_link)
@@ -100,12 +115,30 @@ contains
           if (find_name(grounds, link%pins(i)%text) > 0) grounded = grounded + 1
         end do
         if (grounded == 0) call add_error(diagnostics, drive%subject, "the driven link '"// &
-          drive%subject%text//"' turns about no ground pivot; drive it against a link that does")
+          drive%subject%text//"' turns about no ground pivot; drive it against a link that "// &
+          "does, or a MEASURE of its angle")
         if (grounded > 1) call add_error(diagnostics, drive%subject, "the driven link '"// &
           drive%subject%text//"' joins the two ground pivots")
       end if
     end associate
   end subroutine find_driven_link
+
+  !> Looks up the measure of a drive.
+  pure subroutine find_driven_measure(diagnostics, model, measures, drive)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+    type(name_index_t), intent(in) :: measures
+    type(drive_card_t), intent(inout) :: drive
+
+    drive%measure = find_name(measures, drive%subject%text)
+    ! Of a card that cannot be read.
+    if (drive%measure == 0) return
+    associate (measure => model%measures(drive%measure))
+      if (size(measure%terms) > most_terms) call add_error(diagnostics, drive%subject, "'"// &
+        drive%subject%text//"' adds "//to_string(size(measure%terms))//" coordinates; a sum "// &
+        "that is driven has at most "//to_string(most_terms), measure%name, "the sum is here")
+    end associate
+  end subroutine find_driven_measure
 
   !> Looks up the slider of a drive.
   pure subroutine find_driven_slider(diagnostics, model, links, pins, drive)
@@ -120,7 +153,8 @@ contains
     if (find_name(links, drive%subject%text) > 0 .and. find_name(pins, drive%subject%text) == 0) &
       then
       call add_error(diagnostics, drive%subject, "'"//drive%subject%text//"' is a link; "// &
-        "expected: DRIVE link against link, DRIVE link length, or DRIVE pin guide")
+        "expected: DRIVE link against link, DRIVE link length, DRIVE pin guide, or the name of "// &
+        "a MEASURE alone")
       return
     end if
     call seek_pin(drive%subject, pins, links, diagnostics, known)
@@ -172,8 +206,9 @@ contains
     integer :: i, k
 
     do i = 2, size(model%drives)
+      if (model%drives(i)%kind == 0) cycle
       do k = 1, min(i - 1, most_compared)
-        if (.not. are_same(model%drives(i), model%drives(k))) cycle
+        if (.not. are_same(model, model%drives(i), model%drives(k))) cycle
         call add_error(diagnostics, model%drives(i)%subject, "'"// &
           model%drives(i)%subject%text//"' is driven twice", model%drives(k)%subject, &
           "first driven here")
@@ -182,21 +217,48 @@ contains
     end do
   end subroutine refuse_same_drives
 
-  pure function are_same(a, b) result(same)
+  !> Whether two drives are of the same angle, whichever link comes first, the same slider, the same
+  !! length or the same measure; a measure may be of one of these.
+  pure function are_same(model, a, b) result(same)
+    type(model_t), intent(in) :: model
     type(drive_card_t), intent(in) :: a, b
     logical :: same
 
-    select case (a%kind)
-    case (drive_angle, drive_ram)
-      same = a%kind == b%kind .and. a%link > 0 .and. a%link == b%link
-    case (drive_relative)
-      same = a%kind == b%kind .and. a%link > 0 .and. a%against_link > 0 .and. &
-        min(a%link, a%against_link) == min(b%link, b%against_link) .and. &
-        max(a%link, a%against_link) == max(b%link, b%against_link)
-    case default
-      same = a%kind == b%kind .and. a%slider > 0 .and. a%slider == b%slider
-    end select
+    type(string_t) :: driven(2), other(2)
+    integer :: kind, other_kind
+
+    call find_subject(model, a, kind, driven)
+    call find_subject(model, b, other_kind, other)
+    same = kind == other_kind .and. (same_word(driven(1)%text, other(1)%text) .and. &
+      same_word(driven(2)%text, other(2)%text) .or. kind == drive_angle .and. &
+      same_word(driven(1)%text, other(2)%text) .and. same_word(driven(2)%text, other(1)%text))
   end function are_same
+
+  !> What is driven: an angle of a link or between two, a pin on its line, the length of a link, or
+  !! else a measure.
+  pure subroutine find_subject(model, drive, kind, names)
+    type(model_t), intent(in) :: model
+    type(drive_card_t), intent(in) :: drive
+    integer, intent(out) :: kind           !! a drive_… constant, `drive_angle` of any angle
+    type(string_t), intent(out) :: names(2)
+
+    kind = drive%kind
+    names(1)%text = drive%subject%text
+    names(2)%text = drive%against%text
+    if (kind == drive_relative) kind = drive_angle
+    if (drive%measure == 0) return
+    associate (measure => model%measures(drive%measure))
+      if (measure%kind == measure_angle) then
+        kind = drive_angle
+        names(1)%text = measure%links(1)%text
+        names(2)%text = measure%links(2)%text
+      else if (measure%kind == measure_along) then
+        kind = drive_slider
+        names(1)%text = measure%places(1)%text
+        names(2)%text = measure%line%text
+      end if
+    end associate
+  end subroutine find_subject
 
   !> Checks the pins of a BRANCH card.
   pure subroutine check_branch(diagnostics, model, links, pins, grounds, branch)

@@ -19,7 +19,7 @@ module name_checks
   implicit none (type, external)
   private
 
-  public :: check_names, look_up, link_ends, pin_names, looks_misspelt
+  public :: check_names, look_up, kind_of_unknown, link_ends, pin_names, looks_misspelt
 
   !> More than the number of report kinds: limits the comparisons in a deck of very many cards.
   integer, parameter :: most_reports = 100

@@ -16,8 +16,8 @@ module vibration_checks
 contains
 
   !> Checks rigid links, masses and forces where beams are needed. Errors: those of `check_rigid`
-  !! where all links are; rigid links with `SOLVER dense` or `band`; those of `check_massless`,
-  !! `check_bending` and `check_nodal`.
+  !! where all links are; a measure that is driven and not free; rigid links with `SOLVER dense` or
+  !! `band`; those of `check_massless`, `check_bending` and `check_nodal`.
   pure subroutine check_vibrations(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(in) :: model                !! whose masses have their links
@@ -25,6 +25,7 @@ contains
     integer :: rigid
 
     if (.not. bends_links(model) .or. size(model%links) == 0) return
+    call refuse_held_measure(diagnostics, model)
     if (all(model%links%rigid)) then
       call check_rigid(diagnostics, model)
       return
@@ -40,6 +41,21 @@ contains
     call check_bending(diagnostics, model)
     call check_nodal(diagnostics, model)
   end subroutine check_vibrations
+
+  !> A drive clamps the links that it drives, or holds a pin on its line: one of a measure neither.
+  pure subroutine refuse_held_measure(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(model_t), intent(in) :: model
+
+    integer :: i, report
+
+    i = findloc(model%drives%measure > 0 .and. .not. model%drives%is_free, .true., dim=1)
+    if (i == 0) return
+    report = findloc(model%reports%kind%response .or. model%reports%kind%beams, .true., dim=1)
+    call add_error(diagnostics, model%drives(i)%subject, "a link that bends is not held by a "// &
+      "measure; expected 'free' on this card, or DRIVE of a link, a slider or a ram", &
+      model%reports(report)%keyword, "this report is on links that bend")
+  end subroutine refuse_held_measure
 
   !> The most modes that a linkage may have: as many as free drives where all links are rigid; where
   !! links that bend have no mass, as many as the masses that move may have freedoms. Their number

@@ -46,7 +46,7 @@ contains
     place = model%balance%keyword
     if (place%line == 0) place = model%shafts(1)%keyword
     if (drives_length(model)) call add_error(diagnostics, place, "BALANCE is about a whole "// &
-      "turn of the crank at constant speed, and the first DRIVE moves a slider or a ram", &
+      "turn of the crank at constant speed, and the first DRIVE gives a length", &
       model%drive, "it is driven here")
     if (report_number(model, "balance") == 0) call add_warning(diagnostics, place, "BALANCE is "// &
       "used by REPORT balance only, which is not asked for")

@@ -31,7 +31,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
 
     character(len=:), allocatable :: in_links
-    integer :: motion, report
+    integer :: drive, motion, report
     logical :: in_motion
 
     in_links = "in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
@@ -53,6 +53,13 @@ contains
       if (in_motion) call add_error(diagnostics, model%reports(motion)%forces_word, &
         "the forces "//in_links//" cannot be told apart while all are rigid; accelerations and "// &
         "power do not need them")
+      return
+    end if
+    drive = findloc(model%drives%measure > 0, .true., dim=1)
+    if (drive > 0) then
+      call add_error(diagnostics, model%drives(drive)%subject, "the forces "//in_links// &
+        " are divided by how links bend, and these are not held by a measure; expected DRIVE "// &
+        "of a link, a slider or a ram")
       return
     end if
     if (size(model%frictions) > 0) call check_divided_friction(model, in_links, diagnostics)

@@ -72,7 +72,7 @@ contains
       call check_coupled_drives(model, mechanism, diagnostics)
     end if
     if (drives_length(model) .and. model%motor%keyword%line > 0) call add_error(diagnostics, &
-      model%motor%keyword, "a MOTOR turns a link, and the first DRIVE moves a slider or a ram; "// &
+      model%motor%keyword, "a MOTOR turns a link, and the first DRIVE gives a length; "// &
       "a FORCE on its pin, or a DRIVE of a link, may serve")
     call check_rams(model, mechanism, diagnostics)
     if (allocated(mechanism%elastic)) call check_straight_guides(model, mechanism, diagnostics)
@@ -209,7 +209,8 @@ contains
         found%at_first = cranks(i)
         found%number = number
       end if
-      if (abs(misfit) <= abs(found%largest)) cycle
+      ! A length is wrong by the same, but for rounding, wherever its pins are placed without it.
+      if (abs(misfit) <= (1.0_wp + 1.0e-9_wp)*abs(found%largest)) cycle
       found%largest = misfit
       found%worst = number
       found%at_largest = cranks(i)

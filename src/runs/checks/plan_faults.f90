@@ -6,9 +6,9 @@ module plan_faults
   use kinds, only: wp
   use linkage_builder, only: assembly_t
   use models, only: model_t
-  use plan_problems, only: problem_braced, problem_coupler_driven, problem_drive_idle, &
-    problem_no_side, problem_not_drawn, problem_other_bases, problem_side_idle, &
-    problem_sides_differ, problem_too_free
+  use plan_problems, only: problem_braced, problem_drive_idle, problem_no_side, &
+    problem_not_drawn, problem_other_bases, problem_side_idle, problem_sides_differ, &
+    problem_too_free
   use plan_sides, only: has_two_places, is_on_line
   use pose_types, only: place_of_pin, pins_of_body
   use text, only: plural, same_word, to_string
@@ -43,10 +43,6 @@ contains
         end if
       case (problem_braced)
         call report_brace(model, assembly, place, diagnostics)
-      case (problem_coupler_driven)
-        call add_error(diagnostics, model%drives(problem%number)%subject, "'"// &
-          model%drives(problem%number)%subject%text//"' turns about no ground pivot; drive it "// &
-          "against a link: DRIVE "//model%drives(problem%number)%subject%text//" against link")
       case (problem_drive_idle)
         call add_error(diagnostics, model%drives(problem%number)%subject, "the linkage has "// &
           "mobility "//to_string(problem%mobility)//" and "//plural(size(model%drives), &

@@ -71,7 +71,7 @@ contains
     if (.not. present(reach)) motion = motion//"; frequencies at positions do without"
     if (drives_length(model)) then
       place = model%drives(1)%keyword
-      why = "the first DRIVE moves a slider or a ram"
+      why = "the first DRIVE gives a length"
     else if (.not. present(reach)) then
       why = "the crank does not turn fully, meets a dead point or a change point, or the links "// &
         "are elsewhere after a turn"

@@ -7,7 +7,7 @@ module cycle_forces
     joints_at_speed, joints_result_t
   use drive_values, only: find_rates_of_drives
   use kinds, only: wp
-  use linkages, only: drive_of_angle, linkage_t
+  use linkages, only: gives_angle, linkage_t
   use motion_programs, only: motion_program_t, program_values
   use positions, only: find_positions, find_state, list_positions, positions_t
   implicit none (type, external)
@@ -82,7 +82,7 @@ contains
       motion = [at, self%request%speed(number), self%request%acceleration]
     else if (allocated(self%request%program)) then
       motion = program_values(self%request%program, at)
-      if (self%linkage%drives(1)%kind == drive_of_angle) motion(2:) = motion(2:)*degree
+      if (gives_angle(self%linkage%drives(1))) motion(2:) = motion(2:)*degree
     else
       motion = [at, 1.0_wp, 0.0_wp]
     end if

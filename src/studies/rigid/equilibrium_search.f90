@@ -5,7 +5,7 @@ module equilibrium_search
   use kinds, only: wp
   use lagrange, only: lagrange_t
   use linkage_paths, only: period_of
-  use linkages, only: drive_of_angle
+  use linkages, only: gives_angle
   use load_tables, only: load_period
   implicit none (type, external)
   private
@@ -95,7 +95,7 @@ contains
 
     n = samples_per_range
     associate (ends => self%ends)
-      if (self%holding%linkage%drives(1)%kind == drive_of_angle) n = max(n, ceiling((ends(2) - &
+      if (gives_angle(self%holding%linkage%drives(1))) n = max(n, ceiling((ends(2) - &
         ends(1))/360.0_wp)*samples_per_range)
       allocate (self%samples(0:n))
       do i = 0, n
@@ -209,7 +209,7 @@ contains
     rest%kind = kind
     associate (ends => self%ends)
       step = 0.4_wp
-      if (self%holding%linkage%drives(1)%kind /= drive_of_angle) step = 1.0e-3_wp*(ends(2) - &
+      if (.not. gives_angle(self%holding%linkage%drives(1))) step = 1.0e-3_wp*(ends(2) - &
         ends(1))
       if (.not. self%turns) step = min(step, 0.25_wp*max(min(crank - ends(1), ends(2) - crank), &
         0.0_wp))
@@ -236,7 +236,7 @@ contains
     call holding%find_terms(rest%crank, terms, is_known)
     rest%potential = terms%potential
     rest%inertia = terms%inertia
-    is_angle = holding%linkage%drives(1)%kind == drive_of_angle
+    is_angle = gives_angle(holding%linkage%drives(1))
     per_unit = merge(degree, 1.0_wp, is_angle)
     if (.not. step > 0.0_wp) return
     do i = 1, 3

@@ -9,7 +9,7 @@ module equilibrium_study
   use lagrange, only: lagrange_t
   use limits_study, only: everywhere
   use linkage_paths, only: period_of
-  use linkages, only: drive_of_angle, linkage_t
+  use linkages, only: gives_angle, linkage_t
   use load_tables, only: load_period
   use pulls, only: counts_turns
   use rigid_bodies, only: rigid_bodies_of
@@ -93,7 +93,7 @@ contains
     integer :: i, n, before
 
     n = fewest
-    if (holding%linkage%drives(1)%kind == drive_of_angle) n = max(n, ceiling((ends(2) - &
+    if (gives_angle(holding%linkage%drives(1))) n = max(n, ceiling((ends(2) - &
       ends(1))/360.0_wp)*each_turn)
     before = size(curve)
     allocate (longer(before + n + 1))
@@ -164,7 +164,7 @@ contains
     real(wp) :: turns
     integer :: i
 
-    if (linkage%drives(1)%kind /= drive_of_angle) return
+    if (.not. gives_angle(linkage%drives(1))) return
     if (.not. any(counts_drive(linkage%loads))) return
     do i = 1, size(positions)
       turns = floor((positions(i) - ends(1))/360.0_wp)

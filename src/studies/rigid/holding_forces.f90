@@ -5,7 +5,7 @@ module holding_forces
   use coordinates, only: evaluated_rate, evaluated_t
   use kinds, only: wp
   use lagrange, only: find_lagrange, lagrange_t
-  use linkages, only: drive_of_angle, linkage_t
+  use linkages, only: gives_angle, linkage_t
   use positions, only: find_state, state_t
   use pulls, only: contact_depth
   use rigid_bodies, only: rigid_body_t
@@ -119,7 +119,7 @@ contains
         if (load%side == 0) cycle
         depth = contact_depth(load, along(i)%value, evaluated_rate(self%linkage, state%pose, &
           state%coefficients, load%along, along(i)))
-        if (self%linkage%drives(1)%kind == drive_of_angle) depth(2) = depth(2)*degree
+        if (gives_angle(self%linkage%drives(1))) depth(2) = depth(2)*degree
         if (abs(depth(2)) > 0.0_wp) distance = min(distance, min(abs(depth(1)), abs(depth(1) - &
           load%contact))/abs(depth(2)))
       end associate

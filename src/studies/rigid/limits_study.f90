@@ -15,7 +15,7 @@ module limits_study
     value_of_coordinate
   use linkage_paths, only: has_iterations, leave_path
   use low_points, only: low_point_t
-  use linkages, only: drive_of_angle, group_by_newton, group_cross_slide, group_driven_dyad, &
+  use linkages, only: gives_angle, group_by_newton, group_cross_slide, group_driven_dyad, &
     group_dyad, group_on_line, group_through_pin, group_two_lines, linkage_t, mobility
   use sorting, only: ascending_order
   use special_positions, only: event_names, find_change_points, find_special_positions, &
@@ -127,7 +127,7 @@ contains
     integer :: i
 
     positions = [0.0_wp]
-    if (linkage%drives(1)%kind == drive_of_angle) return
+    if (gives_angle(linkage%drives(1))) return
     span = 2.0_wp*sum(linkage%bodies%length) + maxval(norm2(linkage%ground_position, dim=1))
     positions = [(span*i/steps, i=-steps, steps)]
   end function everywhere
@@ -195,7 +195,7 @@ contains
     call find_ranges(alone, [value], ranges, number)
     do r = 1, size(ranges)
       ahead = value - ranges(r)%from
-      if (linkage%drives(number)%kind == drive_of_angle) ahead = modulo(ahead, 360.0_wp)
+      if (gives_angle(linkage%drives(number))) ahead = modulo(ahead, 360.0_wp)
       if (ranges(r)%turns .or. ahead > ranges(r)%to - ranges(r)%from) cycle
       found%drive = number
       found%range = ranges(r)
