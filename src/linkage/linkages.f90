@@ -23,9 +23,9 @@ module linkages
   private
 
   public :: linkage_t, body_t, body_pin_t, lump_t, forced_place_t, slider_t, turn_t, drive_t, &
-    drawing_t, equation_t, group_t, path_t, bridge_t, shaft_t
-  public :: mobility, reference_point, is_dyad_linkage, follows_angle, cross, normal_to, turned, &
-    turned_back
+    actuator_t, drawing_t, equation_t, group_t, path_t, bridge_t, shaft_t
+  public :: mobility, reference_point, is_dyad_linkage, is_actuated, follows_angle, cross, &
+    normal_to, turned, turned_back
   public :: drive_of_nothing, drive_of_angle, drive_of_slider, drive_of_length, &
     drive_of_coordinate, gives_angle
   public :: rule_through, rule_stop, rule_branch
@@ -160,6 +160,12 @@ module linkages
                                       !! the linkage vibrates
   end type drive_t
 
+  !> What gives an effort along a coordinate.
+  type :: actuator_t
+    integer :: coordinate = 0             !! number of the coordinate
+    character(len=:), allocatable :: name !! for messages
+  end type actuator_t
+
   !> Rough places of pins.
   type :: drawing_t
     logical, allocatable :: is_drawn(:) !! (pins)
@@ -261,6 +267,9 @@ module linkages
     type(slider_t), allocatable :: sliders(:)      !! pins on lines
     type(turn_t), allocatable :: turns(:)          !! bodies that turn together
     type(drive_t), allocatable :: drives(:)        !! the first is the crank of tables and speeds
+    type(actuator_t), allocatable :: actuators(:)  !! (drives) whose efforts hold and move it, while
+                                                   !! the drives give its motion alone; not
+                                                   !! allocated: the drives do both
     logical :: runs_in_time = .false.              !! drives have laws that do not follow the first
                                                    !! one: wherever a linkage is placed and moved
                                                    !! by the coordinate of the first drive, the time
@@ -322,14 +331,22 @@ contains
   end function reference_point
 
   !> Whether a crank and dyads of binary links are all: closed forms of four-bars and bending links
-  !! know no more.
+  !! know no more, and no actuators.
   pure function is_dyad_linkage(linkage) result(is)
     type(linkage_t), intent(in) :: linkage !! its bodies and groups
     logical :: is
 
     is = linkage%has_crank .and. all(linkage%groups%kind == group_dyad) .and. &
-      size(linkage%sliders) == 0 .and. size(linkage%drives) == 1
+      size(linkage%sliders) == 0 .and. size(linkage%drives) == 1 .and. .not. is_actuated(linkage)
   end function is_dyad_linkage
+
+  !> Whether efforts act along other coordinates than those of the drives.
+  pure function is_actuated(linkage) result(is)
+    type(linkage_t), intent(in) :: linkage !! its actuators
+    logical :: is
+
+    is = allocated(linkage%actuators)
+  end function is_actuated
 
   !> Whether a linkage is placed and moved by an angle in degrees, of which derivatives are per
   !! radian; else by a length, or by the time.

@@ -21,19 +21,20 @@ module coordinate_builder
   type :: listed_coordinate_t
     character(len=:), allocatable :: name
     logical :: is_angle = .false. !! else a length
-    integer :: drive = 0          !! number of the drive that gives it; 0: none
+    integer :: drive = 0          !! number of the drive that gives it, or of the actuator along it,
+                                  !! where these give efforts; 0: none
   end type listed_coordinate_t
 
 contains
 
   !> The coordinates of springs and dampers, rams, sliders and measures, in this order, and which of
-  !! them loads are along and over.
+  !! them are actuated, and loads are along and over.
   pure subroutine build_coordinates(model, links, pins, linkage, listed)
     type(model_t), intent(in) :: model         !! without errors
     integer, intent(in) :: links(:)            !! (bodies) numbers of their links in the model
     type(name_index_t), intent(in) :: pins     !! names of the pins
     type(linkage_t), intent(inout) :: linkage  !! with its loads: processes, then springs;
-                                               !! gets coordinates
+                                               !! gets coordinates and actuators
     type(listed_coordinate_t), allocatable, intent(out) :: listed(:) !! (coordinates)
 
     type(named_coordinate_t), allocatable :: named(:)
@@ -45,6 +46,15 @@ contains
     do i = 1, size(model%springs)
       linkage%loads(size(model%processes) + i)%coordinate = i
     end do
+    if (size(model%actuators) > 0) then
+      listed%drive = 0
+      allocate (linkage%actuators(size(model%actuators)))
+      do i = 1, size(model%actuators)
+        linkage%actuators(i)%coordinate = model%actuators(i)%coordinate
+        linkage%actuators(i)%name = model%actuators(i)%name%text
+        listed(model%actuators(i)%coordinate)%drive = i
+      end do
+    end if
     do i = 1, size(model%processes)
       associate (process => model%processes(i))
         if (process%over /= over_measure) cycle

@@ -1,5 +1,7 @@
 !> Cards → model.
 module model_reader
+  use actuator_cards, only: read_actuators
+  use actuator_checks, only: check_actuators
   use balance_cards, only: is_shaft_form, read_balance, read_shaft, shaft_card_t, shaft_form
   use balance_checks, only: check_balance
   use body_cards, only: read_mass, read_point
@@ -147,6 +149,7 @@ contains
     call check_springs(diagnostics, model)
     call check_measures(diagnostics, model)
     call check_stops(diagnostics, model)
+    call check_actuators(diagnostics, model)
     call check_frictions(diagnostics, model)
     call check_balance(diagnostics, model)
     call find_dampings(diagnostics, model)
@@ -223,8 +226,8 @@ contains
             report%kind%studies = report%kind%studies(:index(report%kind%studies, "harmonics") - 1)
           end if
           ! What starts the linkage from rest is told of a first drive that moves all.
-          if (report%kind%name == "friction" .and. runs_in_time(model)) report%kind%tables(2) = &
-            table_kind_t()
+          if (report%kind%name == "friction" .and. (runs_in_time(model) .or. &
+            size(model%actuators) > 0)) report%kind%tables(2) = table_kind_t()
         else if (is_sound) then
           call add_error(diagnostics, report%keyword, "REPORT "//trim(report%kind%name)// &
             " is made for four-bars only, so far: three links with two pins each, two ground "// &
@@ -432,7 +435,7 @@ contains
       model%drives(number_of(cards, "DRIVE")), model%laws(number_of(cards, "LAW")), &
       model%measures(number_of(cards, "MEASURE")))
     allocate (model%branches(0), model%shafts(0), model%forces(0), model%torques(0), &
-      model%processes(0))
+      model%processes(0), model%actuators(0))
     ! What the first drive moves says what CRANK and SPEED are.
     do first_drive = 1, size(cards)
       if (same_word(cards(first_drive)%keyword%text, "DRIVE")) exit
@@ -581,6 +584,8 @@ contains
         end if
       case ("MEASURE")
         call read_measure_card(card, system, diagnostics, model%measures(number))
+      case ("ACTUATE")
+        call read_actuators(card, diagnostics, model%actuators)
       case ("MOTOR")
         call read_motor(card, system, diagnostics, model%motor)
       case ("LOAD")

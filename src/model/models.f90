@@ -8,6 +8,7 @@
 !> The model: the contents of a deck in SI (crank angles in degrees), each part with the word of the
 !! deck it came from.
 module models
+  use actuator_cards, only: actuator_card_t
   use balance_cards, only: balance_card_t, shaft_card_t
   use body_cards, only: mass_card_t, point_t
   use card_echo, only: echo_line_t
@@ -90,6 +91,7 @@ module models
     type(stop_card_t), allocatable :: stops(:)       !! STOP cards
     type(friction_card_t), allocatable :: frictions(:) !! FRICTION cards
     type(measure_card_t), allocatable :: measures(:)   !! MEASURE cards
+    type(actuator_card_t), allocatable :: actuators(:) !! names of ACTUATE cards
     type(balance_card_t) :: balance             !! counterweights of REPORT balance
     type(shaft_card_t), allocatable :: shafts(:) !! its balance shafts
     type(law_card_t), allocatable :: laws(:)    !! LAW cards
@@ -222,7 +224,7 @@ contains
     logical :: as
 
     as = model%format == four_bars
-    if (model%format == any_linkage) as = is_four_bar(model)
+    if (model%format == any_linkage) as = is_four_bar(model) .and. size(model%actuators) == 0
   end function as_four_bar
 
   !> Whether a report, which the deck has, is written as of a four-bar.

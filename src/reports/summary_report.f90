@@ -3,6 +3,7 @@
 module summary_report
   use coordinates_report, only: ratio_unit
   use drive_motions, only: place_columns, table_place
+  use effort_sources, only: effort_source_t, find_effort_sources
   use frequency_report, only: effects_notes, shown_speed
   use kinds, only: wp
   use load_notes, only: acceleration_note
@@ -117,6 +118,8 @@ contains
     character(len=*), intent(in) :: column
     character(len=:), allocatable :: unit
 
+    type(effort_source_t), allocatable :: sources(:)
+
     select case (column(index(column, "_", back=.true.) + 1:))
     case ("time")
       unit = "time"
@@ -131,8 +134,10 @@ contains
       unit = trim(quantity_kinds(quantity%kind)%unit)
       if (quantity%of /= "") unit = unit_of_coordinate(model, quantity)
       ! What turns a crank is a force on a slider.
-      if (unit == "moment" .and. drives_length(model) .and. index(column, "torque") > 0) &
-        unit = "force"
+      if (unit == "moment" .and. index(column, "torque") > 0) then
+        call find_effort_sources(model, sources)
+        if (sources(1)%is_force) unit = "force"
+      end if
     end select
   end function unit_of
 

@@ -145,8 +145,9 @@ contains
         found%value = transmission_at(variant%mechanism%linkage, variant%mechanism%four_bar, &
           results%positions%states(state))
       case ("drives")
-        drives = drives_at_speed(variant%mechanism%linkage, results%joints, state, &
-          results%positions%crank(position), rates(1), rates(2), speed)
+        drives = drives_at_speed(variant%mechanism%linkage, results%joints, &
+          results%positions%states(state), state, results%positions%crank(position), rates(1), &
+          rates(2), speed)
         frame = frame_at_speed(variant%mechanism%linkage, results%joints, state, rates(1), &
           rates(2), speed)
         if (name == "torque") found%value = drives(3, 1)

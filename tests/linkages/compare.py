@@ -203,8 +203,13 @@ class Place:
                     continue
                 unit = units["moment" if column == "moment" else "force"]
                 self.add("force", row[column], value / unit, scale / float(unit), f"{column} on {link} at {pin}")
+        for name, along, value in zip(self.deck.actuated, model.actuators, state.drives):
+            table = row_of(self.drives, self.key + (name,), "drives.dat")
+            unit = units["torque" if along.is_angle else "force"]
+            self.add("torque", table["force"], value / unit, max(moment if along.is_angle else force, abs(float(value))) / float(unit),
+                     f"effort of {name}")
         for row, value in zip((row for row in model.rows if row[0] == "drive"), state.drives):
-            if not self.drives:
+            if not self.drives or model.actuators:
                 break
             drive = row[1]
             table = row_of(self.drives, self.key + (drive["name"],), "drives.dat")
@@ -260,13 +265,18 @@ class Place:
         for pin, force in model.forces.items():
             velocity, _ = motion(pin)
             terms += [float(f) * v for f, v in zip(force, velocity)]
-        for drive in self.deck.drives:
-            row = self.drives[self.key + (drive["name"],)]
-            kinds = ("rate", "force") if drive["linear"] else ("speed", "torque")
-            terms.append(row["rate"] * units[kinds[0]] * row["force"] * units[kinds[1]])
+        terms += self.powers()
         largest = max(abs(term) for term in terms)
         if largest:
             self.add("power", math.fsum(terms), 0, largest, "sum of powers")
+
+    def powers(self):
+        """Of the drives, or of the actuators in their place, from the table."""
+        sources = [(name, not along.is_angle) for name, along in zip(self.deck.actuated, self.model.actuators)] or \
+            [(drive["name"], drive["linear"]) for drive in self.deck.drives]
+        kinds = {True: ("rate", "force"), False: ("speed", "torque")}
+        rows = [(self.drives[self.key + (name,)], [float(self.units[kind]) for kind in kinds[linear]]) for name, linear in sources]
+        return [row["rate"] * rate * row["force"] * force for row, (rate, force) in rows]
 
     def check_solver(self, later, earlier, time):
         """Velocities and accelerations of the solver are the differences of its positions."""
@@ -287,11 +297,7 @@ class Place:
         later, earlier = model.neighbour(state, time), model.neighbour(state, -time)
         self.check_solver(later, earlier, time)
         expected = (sum(model.energy(later)) - sum(model.energy(earlier))) / (2 * time) - model.power_of_loads(state)
-        power, scale = 0.0, 0.0
-        for drive in self.deck.drives:
-            row = self.drives[self.key + (drive["name"],)]
-            kinds = ("rate", "force") if drive["linear"] else ("speed", "torque")
-            power += row["rate"] * row["force"] * float(self.units[kinds[0]] * self.units[kinds[1]])
+        power = sum(self.powers())
         force = max([abs(float(value)) for triple in state.forces.values() for value in triple[:2]] + [1e-300])
         speed = max(abs(float(v)) for pin in model.moving_pins for v in model.pin_motion(state, pin)[1])
         scale = max(abs(float(expected)), force * speed)

@@ -27,7 +27,8 @@ def with_solver(deck, tables):
             place.forces()
             place.bearings(index(tables["bearings"], "pin", "link"))
             place.frame(index(tables["frame"]))
-            place.lagrange(index(tables["lagrange"]))
+            if "lagrange" in tables:
+                place.lagrange(index(tables["lagrange"]))
             place.coordinates(index(tables["coordinates"], "coordinate"))
             place.virtual_work()
             if number % 6 == 0:
@@ -138,6 +139,9 @@ class LoadedPlace(Place):
             effort = sum((load.effort(s) for load in model.applied if load.keyword in ("spring", "damper") and load.words[0] == name
                           or load.keyword == "stop" and load.words[1] == name), model.zero)
             drive, value = drives.get(name.split(":")[0], (None, None))
+            if model.actuators:
+                drive = None
+                effort += dict(zip(self.deck.actuated, s.drives)).get(name, model.zero)
             if drive and drive["linear"] and (drive["words"][0].lower() == "length" or isinstance(along, Line)
                                               and along.guide is model.guides.get(drive["words"][0])):
                 effort += value
@@ -182,7 +186,10 @@ class LoadedPlace(Place):
         terms = [term for part in self.terms(self.state) for term in part]
         whole = float(sum(abs(term) for term in terms))
         power, rows = [], [row for row in self.model.rows if row[0] == "drive"]
-        for row in rows:
+        for name, along in zip(self.deck.actuated, self.model.actuators):
+            unit = self.units["torque" if along.is_angle else "force"]
+            power.append(Digits.number(self.drives[self.key + (name,)]["force"]) * unit * along.rate(self.state))
+        for row in [] if power else rows:
             table = self.drives[self.key + (row[1]["name"],)]
             unit = self.units["force" if row[1]["linear"] else "torque"]
             rate = self.model.drive_ratio(row[1]) * self.state.rate

@@ -24,6 +24,7 @@ class Deck:
         self.masses, self.pin_masses, self.forces, self.torques = [], [], {}, {}
         self.applied, self.tables, self.frictions = [], {}, []  # all other loads: (keyword, words, keys)
         self.measures = {}                                     # words of MEASURE cards by their names
+        self.actuated = []                                     # names on ACTUATE cards
         self.gravity = (Decimal(0), Decimal(0))
         self.materials, self.sections = {}, {}                 # density, area
         self.moduli, self.bending, self.effects = {}, {}, set()  # (E, nu), (second moment, shear coefficient), words of EFFECTS
@@ -152,6 +153,9 @@ class Deck:
 
     def _measure(self, bare, _):
         self.measures[bare[0]] = bare[1:]
+
+    def _actuate(self, bare, _):
+        self.actuated += bare
 
     def _friction(self, bare, keys):
         self.frictions.append((bare, keys))

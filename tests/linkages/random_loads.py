@@ -5,7 +5,7 @@
 The linkages of random_linkages.py with forces at places of links and in their axes, forces and torques by tables over the drive, a
 block, the travel of a pin, the angle of a link or a measure of any kind, loads in one direction of the motion, resistances, springs
 and dampers of both kinds, springs of one side and stops of any coordinate, whose limits are within its range, friction in pins and of
-blocks.  Compares forces in the joints and of the drives, bearings, the force on the frame, coordinates and the terms of Lagrange's
+blocks; of some the efforts are along other coordinates than those of the drives (ACTUATE).  Compares forces in the joints and of the drives, bearings, the force on the frame, coordinates and the terms of Lagrange's
 equation; at every position the power of the drives has to be that of all loads and of inertia, to 1e-12 of the sum of absolute terms.
 """
 import argparse
@@ -17,6 +17,7 @@ import tempfile
 
 import compare
 import compare_loads
+import dense
 import measures
 from decks import Deck
 from random_linkages import Case as Bare, run
@@ -350,6 +351,47 @@ class Case(Bare):
             self._add_load(load, found)
         for stop in self._stops(self._states(found)):
             self._add_load(stop, found)
+        if not self.four_bar and self.drawing.chance(0.4):
+            self._actuate(found)
+
+    def _actuate(self, found):
+        """Coordinates that move far enough with all drives everywhere, if there are."""
+        drawing, states = self.drawing, self._states(found)
+        model = states[0][0]
+        rams = [drive["name"] for drive in model.deck.drives if [word.lower() for word in drive["words"]] == ["length"]]
+        names, count = [name for name in measures.names(model.deck) if name not in rams], len(model.deck.drives)
+        for _ in range(20):
+            picked = []
+            while len(picked) < count and len(names) > len(picked):
+                picked.append(drawing.pick([name for name in names if name not in picked]))
+            if len(picked) == count and all(self._holds(model, s, picked) for _, s in states):
+                break
+        else:
+            return
+        cards, reports = self.cards, self.reports
+        self.cards = cards + ["ACTUATE " + " ".join(picked)]
+        self.reports = [report for report in reports if report != "lagrange"]
+        if not all(self._settles(*state) for state in self._states(found)):
+            self.cards, self.reports = cards, reports
+            return
+        self.kinds["actuate"] = self.kinds.get("actuate", 0) + 1
+
+    @staticmethod
+    def _holds(model, s, names):
+        """Whether rates of the coordinates per rates of the drives are far from singular, in radians and sizes of the linkage."""
+        along = [measures.coordinate(model, name) for name in names]
+        if not all(one.is_fine(s) for one in along):
+            return False
+        place, columns = 0, []
+        for row in model.rows:
+            if row[0] == "drive":
+                unit = [0.0] * model.count
+                unit[place] = model.size if row[1]["linear"] else 1.0
+                columns.append(dense.solve(s.factors, unit))
+            place += 2 if row[0] == "pin" else 1
+        matrix = [[sum(g * v for g, v in zip(model.pushed(s, one), column)) / (1.0 if one.is_angle else model.size) for column in columns]
+                  for one in along]
+        return all(max(map(abs, row)) > 0.03 for row in matrix) and (len(matrix) == 1 or dense.condition(matrix) < 100)
 
     def _states(self, found):
         """The positions with the first speed of the deck: (model, state)."""

@@ -11,6 +11,7 @@ import random
 import dense
 from fields import Digits, Doubles
 from loads import frictions_of, loads_of
+from measures import coordinate
 
 
 class Failure(Exception):
@@ -72,6 +73,7 @@ class Model:
         self.pins_by_name = self._named_pins()
         self.applied = loads_of(self)
         self.rubs = frictions_of(self)
+        self.actuators = [coordinate(self, name) for name in deck.actuated]
 
     # construction
 
@@ -616,7 +618,37 @@ class Model:
                 loads[k] += fx * px + fy * py
         s.multipliers = dense.solve_transposed(s.factors, [-load for load in loads])
         s.loads = loads
+        if self.actuators:
+            pin_loads = self._actuate(s, loads, pin_loads)
         self._share_forces(s, pin_loads)
+        if self.actuators:
+            s.drives = s.efforts
+
+    def pushed(self, s, along):
+        """The generalised force of an effort of 1 along a coordinate: its gradient."""
+        row, pins = [self.zero] * self.count, {pin: [self.zero, self.zero] for pin in self.moving_pins}
+        self._apply(s, along.effects(s, self.field.number(1)), row, pins)
+        for pin, (fx, fy) in pins.items():
+            for k, px, py in self.pin_place(s.q, pin)[2]:
+                row[k] += fx * px + fy * py
+        return row
+
+    def _actuate(self, s, loads, pin_loads):
+        """Multipliers with the gradients of the actuated coordinates in the rows of the drives; loads on pins with the efforts."""
+        matrix, places, place = list(s.jacobian), [], 0
+        for row in self.rows:
+            if row[0] == "drive":
+                places.append(place)
+            place += 2 if row[0] == "pin" else 1
+        for place, along in zip(places, self.actuators):
+            matrix[place] = self.pushed(s, along)
+        s.multipliers = dense.solve_transposed(dense.factor(matrix), [-load for load in loads])
+        s.efforts = [s.multipliers[place] for place in places]
+        pins = {pin: list(force) for pin, force in pin_loads.items()}
+        for place, along, effort in zip(places, self.actuators, s.efforts):
+            s.multipliers[place] = self.zero
+            self._apply(s, along.effects(s, effort), [self.zero] * self.count, pins)
+        return pins
 
     def _rub(self, s, loads, pin_loads):
         """Friction by what presses in the joints, again and again."""
@@ -774,6 +806,8 @@ class Model:
         return power + sum((torque * s.v[self.bodies[link].angle] for link, torque in self.torques.items()), self.zero)
 
     def power_of_drives(self, s):
+        if self.actuators:
+            return sum((effort * along.rate(s) for effort, along in zip(s.drives, self.actuators)), self.zero)
         return sum((force * self.drive_ratio(row[1]) * s.rate
                     for force, row in zip(s.drives, (row for row in self.rows if row[0] == "drive"))), self.zero)
 

@@ -163,6 +163,8 @@ module card_table
     card_kind_t("MEASURE", "sum", least=4, most=many, &
       pattern="MEASURE name sum weight name [weight name ...]", &
       help="of others, of springs, rams and sliders, each with its weight"), &
+    card_kind_t("ACTUATE", least=1, most=many, pattern="ACTUATE name [name ...]", &
+      help="coordinates along which efforts act, in place of those of the drives"), &
     card_kind_t("FRICTION", least=1, most=3, pattern="FRICTION pin [link [link]] radius= "// &
       "coefficient= [viscous= smooth=], or FRICTION pin guide with [length=] for radius=", &
       keys="radius coefficient viscous smooth length", &

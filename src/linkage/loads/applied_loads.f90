@@ -500,13 +500,13 @@ contains
   !> Adds what an effort along a coordinate puts on pins and bodies.
   pure recursive subroutine add_effort(linkage, pose, coordinate, evaluated, effort, body_load, &
     pin_load)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
+    type(linkage_t), intent(in) :: linkage          !! the terms of a sum
+    type(pose_t), intent(in) :: pose                !! positions and directions
     type(coordinate_t), intent(in) :: coordinate
-    type(evaluated_t), intent(in) :: evaluated
-    real(wp), intent(in) :: effort !! [N] or [N m]
-    type(load_t), intent(inout) :: body_load(:)
-    real(wp), intent(inout) :: pin_load(:, :)
+    type(evaluated_t), intent(in) :: evaluated      !! of it, at this pose
+    real(wp), intent(in) :: effort                  !! [N] or [N m]
+    type(load_t), intent(inout) :: body_load(:)     !! (bodies) about their first pins
+    real(wp), intent(inout) :: pin_load(:, :)       !! (2, pins) [N]
 
     type(evaluated_t) :: term
     integer :: i

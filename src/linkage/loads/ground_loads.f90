@@ -35,12 +35,12 @@ contains
   !> The same of an effort along a coordinate.
   pure recursive function effort_on_ground(linkage, pose, coordinate, evaluated, effort) &
     result(total)
-    type(linkage_t), intent(in) :: linkage
-    type(pose_t), intent(in) :: pose
+    type(linkage_t), intent(in) :: linkage         !! the terms of a sum
+    type(pose_t), intent(in) :: pose               !! positions and directions
     type(coordinate_t), intent(in) :: coordinate
-    type(evaluated_t), intent(in) :: evaluated
-    real(wp), intent(in) :: effort !! [N] or [N m]
-    real(wp) :: total(3)
+    type(evaluated_t), intent(in) :: evaluated     !! of it, at this pose
+    real(wp), intent(in) :: effort                 !! [N] or [N m]
+    real(wp) :: total(3)                           !! as of `pulls_on_ground`
 
     type(evaluated_t) :: term
     integer :: i

@@ -1,5 +1,6 @@
 !> Friction in pins and sliders: the forces in the joints that it depends on, and that it changes.
 module joint_friction
+  use actuated_forces, only: find_actuated_forces
   use applied_loads, only: add_effort, generalised_force
   use coordinate_types, only: coordinate_t, is_angle
   use coordinates, only: evaluate, evaluated_rate, evaluated_t, slider_coordinate
@@ -7,7 +8,7 @@ module joint_friction
   use ground_loads, only: effort_on_ground
   use group_factors, only: group_factors_t
   use inertia_loads, only: load_t
-  use joint_forces, only: add_scaled, find_joint_forces, force_at_pin, joint_forces_t
+  use joint_forces, only: add_scaled, force_at_pin, joint_forces_t
   use joint_friction_types, only: joint_friction_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -115,7 +116,7 @@ contains
         joints = sum_of(of_units, viscous)
       else
         call put_friction(linkage, pose, friction%rubbing, viscous, body_load, pin_load)
-        joints = find_joint_forces(linkage, pose, body_load, pin_load, factors)
+        joints = find_actuated_forces(linkage, pose, body_load, pin_load, factors)
       end if
       do k = 1, size(rubs)
         base(:, k) = force_in_joint(linkage, joints, rubs(k))
@@ -129,7 +130,7 @@ contains
         else
           call put_friction(linkage, pose, friction%rubbing, merge(coulomb, 0.0_wp, [(i == j, &
             i=1, size(rubs))]), body_load, pin_load)
-          joints = find_joint_forces(linkage, pose, body_load, pin_load, factors)
+          joints = find_actuated_forces(linkage, pose, body_load, pin_load, factors)
         end if
         do k = 1, size(rubs)
           influence(:, k, j) = force_in_joint(linkage, joints, rubs(k))
@@ -141,7 +142,7 @@ contains
     if (present(of_units)) then
       friction%joints = sum_of(of_units, friction%effort)
     else
-      friction%joints = find_joint_forces(linkage, pose, friction%body_load, friction%pin_load, &
+      friction%joints = find_actuated_forces(linkage, pose, friction%body_load, friction%pin_load, &
         factors)
     end if
     friction%load = -generalised_force(linkage, coefficients, friction%body_load, &

@@ -1,12 +1,13 @@
 !> Loads that depend on the speed of a running linkage otherwise than as its square: dampers,
 !! resistances, loads that act in one direction of the motion, and friction in the joints.
 module running_loads
+  use actuated_forces, only: find_actuated_forces
   use applied_loads, only: add_moving_loads, evaluate_loads, generalised_force, has_moving_loads, &
     moving_pulls
   use coordinates, only: evaluated_t
   use ground_loads, only: pulls_on_ground
   use inertia_loads, only: load_t
-  use joint_forces, only: add_scaled, find_joint_forces, joint_forces_t
+  use joint_forces, only: add_scaled, joint_forces_t
   use joint_friction, only: find_friction, friction_on_ground, friction_t, has_friction, &
     is_locked
   use kinds, only: wp
@@ -98,7 +99,7 @@ contains
     if (present(divided)) then
       running%joints = divided%moving
     else
-      running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load, &
+      running%joints = find_actuated_forces(linkage, pose, running%body_load, running%pin_load, &
         unit%factors)
     end if
     running%load = -generalised_force(linkage, coefficients, running%body_load, running%pin_load)
@@ -126,7 +127,7 @@ contains
     if (present(divided)) then
       call add_scaled(running%joints, 1.0_wp, running%friction%joints)
     else
-      running%joints = find_joint_forces(linkage, pose, running%body_load, running%pin_load, &
+      running%joints = find_actuated_forces(linkage, pose, running%body_load, running%pin_load, &
         unit%factors)
     end if
     running%joints%friction = running%friction%effort

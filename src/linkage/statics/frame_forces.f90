@@ -1,12 +1,13 @@
 !> What a linkage puts on the frame: the resultant of all forces at the ground.
 module frame_forces
+  use actuated_forces, only: actuators_on_ground
   use coordinates, only: evaluate, evaluated_t
   use ground_loads, only: effort_on_ground
   use group_equations, only: line_axis
   use joint_forces, only: force_at_pin, joint_forces_t
   use kinds, only: wp
-  use linkages, only: cross, drive_of_angle, drive_of_coordinate, drive_of_slider, linkage_t, &
-    normal_to, reference_point
+  use linkages, only: cross, drive_of_angle, drive_of_coordinate, drive_of_slider, is_actuated, &
+    linkage_t, normal_to, reference_point
   use pose_types, only: pins_of_body
   use poses, only: pose_t
   implicit none (type, external)
@@ -17,8 +18,8 @@ module frame_forces
 contains
 
   !> Force and moment on the frame: opposite to those on the links at ground pivots, on the pins at
-  !! fixed guides, on links that a guide keeps from turning, and of drives that stand on the ground;
-  !! at a block on a ground pivot, those of the link that slides through it.
+  !! fixed guides, on links that a guide keeps from turning, and of drives, or actuators, that stand
+  !! on the ground; at a block on a ground pivot, those of the link that slides through it.
   !!
   !! Of a four-bar the force is −(F12 + F14), and the moment has the reaction of the motor, −T12:
   !! Norton, Design of Machinery, section 11.8.
@@ -44,6 +45,10 @@ contains
     do t = 1, size(linkage%turns)
       if (linkage%turns(t)%against == 0) load(3) = load(3) - forces%couple(t)
     end do
+    if (is_actuated(linkage)) then
+      load = load + actuators_on_ground(linkage, pose, forces%drive)
+      return
+    end if
     do d = 1, size(linkage%drives)
       associate (drive => linkage%drives(d), effort => forces%drive(d))
         if (drive%kind == drive_of_angle .and. drive%against == 0) load(3) = load(3) - effort
@@ -73,7 +78,7 @@ contains
   end subroutine add_pivots
 
   !> What pins put on fixed guides, and links on blocks at ground pivots, across the line and, of
-  !! a driven slider, along it.
+  !! a slider that its drive holds, along it.
   pure subroutine add_sliders(linkage, pose, forces, load)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
@@ -88,7 +93,7 @@ contains
         if (slider%body > 0 .and. .not. linkage%is_ground(slider%pin)) cycle
         axis = line_axis(linkage, pose, i)
         force = forces%guide(i)*normal_to(axis)
-        do d = 1, size(linkage%drives)
+        do d = 1, merge(0, size(linkage%drives), is_actuated(linkage))
           if (linkage%drives(d)%kind == drive_of_slider .and. linkage%drives(d)%slider == i) &
             force = force + forces%drive(d)*axis
         end do

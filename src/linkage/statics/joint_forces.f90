@@ -1,7 +1,8 @@
 ! src/linkage/statics/ - forces in the joints of a rigid linkage, and the torque for a given motion.
 ! In: a pose, loads on bodies and pins. Out: `joint_forces_t`; `unit_reactions_t` for all load
 ! cases, with shaking force. Begin with `find_joint_forces` here, from the last group to the first,
-! then `find_unit_reactions` in `reactions.f90`. Lagrange's equation: `find_lagrange` in
+! then `find_unit_reactions` in `reactions.f90`; `actuated_forces.f90` puts efforts of actuators in
+! place of those of drives. Lagrange's equation: `find_lagrange` in
 ! `lagrange.f90`.
 ! Not here: loads (`src/linkage/loads`), links that are more than statics needs
 ! (`src/vibration/elastic_reactions.f90`).
@@ -34,7 +35,8 @@ module joint_forces
     real(wp), allocatable :: guide(:)         !! (sliders) force of the line on the pin, along the
                                               !! normal of the line [N]
     real(wp), allocatable :: couple(:)        !! (turns) moment on its body from the other one [N m]
-    real(wp), allocatable :: drive(:)         !! (drives) torque or force of each [N m] or [N]
+    real(wp), allocatable :: drive(:)         !! (drives) torque or force of each, or of the
+                                              !! actuators in their place [N m] or [N]
     real(wp), allocatable :: friction(:)      !! (frictions) couple on the body, or force along the
                                               !! line on the pin [N m] or [N]; not allocated where
                                               !! nothing rubs

@@ -1,8 +1,9 @@
 !> Inverse dynamics: forces in all pins, torque of the drive, shaking force and moment.
 module reactions
+  use actuated_forces, only: find_actuated_forces
   use group_factors, only: factorize_groups, group_factors_t
   use inertia_loads, only: load_t
-  use joint_forces, only: find_joint_forces, joint_forces_t
+  use joint_forces, only: joint_forces_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: cross, linkage_t, reference_point
@@ -50,7 +51,7 @@ contains
     call factorize_groups(linkage, pose, unit%factors)
     do i = 1, case_count
       call find_case_loads(linkage, elements, pose, loads%of_case(i), body_loads, pin_loads)
-      unit%of_case(i)%joints = find_joint_forces(linkage, pose, body_loads, pin_loads, &
+      unit%of_case(i)%joints = find_actuated_forces(linkage, pose, body_loads, pin_loads, &
         unit%factors)
       ! Gravity and external loads are no inertia forces: they do not shake the ground.
       if (i < case_count) call add_up(linkage, pose, body_loads, pin_loads, unit%of_case(i))

@@ -21,7 +21,7 @@ module measure_checks
   implicit none (type, external)
   private
 
-  public :: check_measures, seek_coordinate
+  public :: check_measures, seek_coordinate, refuse_two
 
 contains
 
@@ -285,5 +285,22 @@ contains
       suggestion(word%text, names)//"; expected the name of a MEASURE, a SPRING or a DAMPER, "// &
       "of a link whose length is driven, or of a pin that slides")
   end subroutine seek_coordinate
+
+  !> Refuses a name that two coordinates have.
+  pure subroutine refuse_two(diagnostics, named, word, first)
+    type(diagnostics_t), intent(inout) :: diagnostics    !! an error is added
+    type(named_coordinate_t), intent(in) :: named(:)     !! of the deck
+    type(token_t), intent(in) :: word                    !! the name, in the deck
+    integer, intent(in) :: first                         !! number of the first that has it
+
+    integer :: i
+
+    do i = first + 1, size(named)
+      if (.not. same_word(named(i)%name, word%text)) cycle
+      call add_error(diagnostics, word, "'"//word%text//"' is the name of two coordinates; "// &
+        "give one another name", named(i)%word, "one is here")
+      return
+    end do
+  end subroutine refuse_two
 
 end module measure_checks

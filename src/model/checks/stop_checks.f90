@@ -4,7 +4,7 @@ module stop_checks
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
-  use measure_checks, only: seek_coordinate
+  use measure_checks, only: refuse_two, seek_coordinate
   use models, only: model_t
   use named_coordinates, only: coordinate_number, find_named_coordinates, named_coordinate_t
   use stop_cards, only: read_stop
@@ -74,23 +74,6 @@ contains
       end associate
     end do
   end subroutine check_stops
-
-  !> Refuses a name that two coordinates have.
-  pure subroutine refuse_two(diagnostics, named, word, first)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(named_coordinate_t), intent(in) :: named(:)
-    type(token_t), intent(in) :: word !! the name
-    integer, intent(in) :: first      !! number of the first that has it
-
-    integer :: i
-
-    do i = first + 1, size(named)
-      if (.not. same_word(named(i)%name, word%text)) cycle
-      call add_error(diagnostics, word, "'"//word%text//"' is the name of two coordinates; "// &
-        "give one another name", named(i)%word, "one is here")
-      return
-    end do
-  end subroutine refuse_two
 
   !> Reports a contact without a width that follows from nothing.
   pure subroutine require_contact(diagnostics, model, contact, word)

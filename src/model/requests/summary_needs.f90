@@ -53,12 +53,12 @@ contains
 
   end subroutine take_needs
 
-  !> A report on coordinates needs forces, if a drive moves along one of them.
+  !> A report on coordinates needs forces, if a drive moves along one of them, or efforts act.
   pure subroutine add_forces_of_drives(model, kind)
     type(model_t), intent(in) :: model           !! with its drives
     type(report_kind_t), intent(inout) :: kind   !! of the report
 
-    if (.not. any(moves_along(model%drives%kind))) return
+    if (.not. any(moves_along(model%drives%kind)) .and. size(model%actuators) == 0) return
     kind%masses = .true.
     if (index(kind%studies, "joints") == 0) kind%studies = trim(kind%studies)//" joints"
   end subroutine add_forces_of_drives

@@ -7,7 +7,7 @@ module coordinates_report
   use drive_positions, only: shown_crank
   use joint_study, only: drives_at_speed
   use kinds, only: wp
-  use load_notes, only: acceleration_note
+  use load_notes, only: acceleration_note, actuator_words
   use models, only: model_t, report_number
   use named_coordinates, only: find_named_coordinates, named_coordinate_t
   use position_rows, only: add_position_row
@@ -93,6 +93,8 @@ contains
     call append_string(notes, "effort: of the spring, damper or drive itself, positive where "// &
       "it makes the coordinate grow: a stretched spring has an effort below 0")
     call append_string(notes, "power: effort times rate, what it gives the linkage")
+    if (size(variant%model%actuators) > 0) call append_string(notes, &
+      actuator_words(variant%model))
   end function coordinate_notes
 
   pure function unit_name(variant, quantity) result(name)
@@ -246,7 +248,8 @@ contains
     associate (positions => variant%found%positions, linkage => variant%mechanism%linkage, &
         listed => variant%mechanism%coordinates(number))
       if (listed%drive > 0) then
-        drives = drives_at_speed(linkage, variant%found%joints, positions%state(position), &
+        drives = drives_at_speed(linkage, variant%found%joints, &
+          positions%states(positions%state(position)), positions%state(position), &
           positions%crank(position), rates(1), rates(2), speed)
         force = drives(3, listed%drive)
       end if

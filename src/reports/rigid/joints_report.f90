@@ -10,7 +10,7 @@ module joints_report
   use drive_motions, only: drive_rates, place_columns, table_place
   use joint_study, only: drives_at_speed, joint_t, joints_at_speed
   use kinds, only: wp
-  use drive_cards, only: moves_along
+  use effort_sources, only: effort_source_t, find_effort_sources
   use load_notes, only: acceleration_note, append_load_notes
   use models, only: model_t
   use pins_report, only: pin_names
@@ -215,18 +215,18 @@ contains
     type(variant_results_t), intent(in) :: variant       !! with its mechanism
     type(string_t), allocatable, intent(out) :: notes(:) !! lines of the table's head
 
+    type(effort_source_t), allocatable :: sources(:)
     integer :: i
 
-    do i = 1, size(variant%model%drives)
-      associate (card => variant%model%drives(i))
-        if (moves_along(card%kind)) then
-          call append_string(notes, "drive "//card%subject%text//": "//units_text(variant, &
-            "length", "velocity", "force"))
-        else
-          call append_string(notes, "drive "//card%subject%text//": deg, "// &
-            variant%model%outputs%rate%name//", "//variant%model%outputs%moment%name)
-        end if
-      end associate
+    call find_effort_sources(variant%model, sources)
+    do i = 1, size(sources)
+      if (sources(i)%is_force) then
+        call append_string(notes, "drive "//sources(i)%name//": "//units_text(variant, "length", &
+          "velocity", "force"))
+      else
+        call append_string(notes, "drive "//sources(i)%name//": deg, "// &
+          variant%model%outputs%rate%name//", "//variant%model%outputs%moment%name)
+      end if
     end do
     call append_string(notes, "force: of the drive on what it moves, positive in the sense of "// &
       "its position")
@@ -278,17 +278,20 @@ contains
     end associate
   end function reference_words
 
-  !> The names in the column `drive`: driven links, and pins of driven sliders.
+  !> The names in the column `drive`: driven links, and pins of driven sliders; or the coordinates
+  !! of ACTUATE cards.
   pure function drive_names(variant) result(list)
     type(variant_results_t), intent(in) :: variant !! with its model
     type(name_list_t) :: list
 
+    type(effort_source_t), allocatable :: sources(:)
     integer :: i
 
+    call find_effort_sources(variant%model, sources)
     list%column = "drive"
-    allocate (list%names(size(variant%model%drives)))
-    do i = 1, size(list%names)
-      list%names(i)%text = variant%model%drives(i)%subject%text
+    allocate (list%names(size(sources)))
+    do i = 1, size(sources)
+      list%names(i)%text = sources(i)%name
     end do
   end function drive_names
 
@@ -298,10 +301,13 @@ contains
     type(model_t), intent(in) :: model !! with its drives
     character(len=:), allocatable :: columns
 
+    type(effort_source_t), allocatable :: sources(:)
+
+    call find_effort_sources(model, sources)
     columns = "speed:speed crank:deg drive:name "
-    if (all(moves_along(model%drives%kind))) then
+    if (all(sources%is_force)) then
       columns = columns//"position:length rate:velocity force:force"
-    else if (any(moves_along(model%drives%kind))) then
+    else if (any(sources%is_force)) then
       columns = columns//"position,rate,force:see_head"
     else
       columns = columns//"position:deg rate:rate force:moment"
@@ -316,6 +322,7 @@ contains
     integer, intent(in) :: speed                   !! number in the deck's list
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
+    type(effort_source_t), allocatable :: sources(:)
     real(wp), allocatable :: values(:, :)
     real(wp) :: rates(2)
     logical :: mixed
@@ -324,12 +331,14 @@ contains
     rates = drive_rates(variant%model, speed, position)
     associate (model => variant%model, positions => variant%found%positions, &
         linkage => variant%mechanism%linkage)
-      values = drives_at_speed(linkage, variant%found%joints, positions%state(position), &
+      values = drives_at_speed(linkage, variant%found%joints, &
+        positions%states(positions%state(position)), positions%state(position), &
         positions%crank(position), rates(1), rates(2), speed)
-      mixed = any(moves_along(model%drives%kind)) .and. .not. all(moves_along(model%drives%kind))
+      call find_effort_sources(model, sources)
+      mixed = any(sources%is_force) .and. .not. all(sources%is_force)
       do i = 1, size(values, 2)
         if (mixed) then
-          if (.not. moves_along(model%drives(i)%kind)) then
+          if (.not. sources(i)%is_force) then
             values(2, i) = from_si(values(2, i), model%outputs%rate)
             values(3, i) = from_si(values(3, i), table_factor("moment", model%outputs))
           else
@@ -339,7 +348,7 @@ contains
           end if
         end if
         call add_position_row(variant, layout, position, speed, values(:, i), rows, &
-          model%drives(i)%subject%text)
+          sources(i)%name)
       end do
     end associate
   end subroutine add_drives

@@ -1,7 +1,7 @@
 !> `sizing.dat`: what is bought for a linkage: drives, bearings and a flywheel, a value a row.
 module sizing_report
-  use drive_cards, only: moves_along
   use constants, only: degree
+  use effort_sources, only: effort_source_t, find_effort_sources
   use joints_report, only: add_open_row, joint_owners, owner_cell
   use kinds, only: wp
   use load_notes, only: acceleration_note, append_load_notes
@@ -141,13 +141,15 @@ contains
     type(variant_results_t), intent(in) :: variant !! with its mechanism
     type(name_list_t) :: lists(4)
 
+    type(effort_source_t), allocatable :: sources(:)
     type(unit_t) :: measure
     integer :: i
 
     lists(1) = joint_owners(variant)
     lists(1)%column = "part"
-    do i = 1, size(variant%model%drives)
-      call append_string(lists(1)%names, variant%model%drives(i)%subject%text)
+    call find_effort_sources(variant%model, sources)
+    do i = 1, size(sources)
+      call append_string(lists(1)%names, sources(i)%name)
     end do
     call append_string(lists(1)%names, flywheel_word)
     call append_string(lists(1)%names, motor_word)
@@ -216,16 +218,18 @@ contains
     type(sized_t), intent(in) :: sized
     type(rows_t), intent(inout) :: rows
 
+    type(effort_source_t), allocatable :: sources(:)
     character(len=6) :: word
     character(len=8) :: unit, unit_of_rate
     character(len=:), allocatable :: part, names
 
-    part = variant%model%drives(sized%drive)%subject%text
+    call find_effort_sources(variant%model, sources)
+    part = sources(sized%drive)%name
     if (sized%is_motor) part = motor_word
     word = "torque"
     unit = "moment"
     unit_of_rate = "rate"
-    if (moves_along(variant%model%drives(sized%drive)%kind)) then
+    if (sources(sized%drive)%is_force) then
       word = "force"
       unit = "force"
       unit_of_rate = "velocity"
@@ -235,7 +239,7 @@ contains
     call put_rows(variant, layout, speed, names, [value_t("peak_"//word, sized%peak, unit, &
       sized%crank, sized%error), value_t("rms_"//word, sized%rms, unit, error=sized%error), &
       value_t("mean_"//word, sized%mean, unit, error=sized%error)], rows)
-    if (has_law(variant%model)) then
+    if (sized%varies) then
       associate (timed => sized%timed)
         call put_rows(variant, layout, speed, names, &
           [value_t("peak_rate", sized%rate, unit_of_rate, timed%rate_at, timed%error(1)), &

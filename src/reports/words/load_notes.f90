@@ -12,7 +12,7 @@ module load_notes
   implicit none (type, external)
   private
 
-  public :: append_load_notes, append_motion_notes, acceleration_note
+  public :: append_load_notes, append_motion_notes, acceleration_note, actuator_words
   public :: potential_note, work_note
 
   !> What `potential` is in every table.
@@ -25,7 +25,7 @@ module load_notes
 
 contains
 
-  !> Inertia of every link, gravity, external loads: one line for each of the three. Springs,
+  !> Inertia of every link, gravity, external loads, actuators: one line for each of them. Springs,
   !! dampers and joints that rub: one line each.
   pure subroutine append_load_notes(notes, model, mechanism)
     type(string_t), allocatable, intent(inout) :: notes(:) !! to which they are appended
@@ -44,6 +44,7 @@ contains
     call append_string(notes, line)
     call append_string(notes, gravity_words(model, mechanism))
     call append_string(notes, outside_loads(model, mechanism))
+    if (size(model%actuators) > 0) call append_string(notes, actuator_words(model))
     lines = spring_lines(model, mechanism)
     do b = 1, size(lines)
       call append_string(notes, lines(b)%text)
@@ -85,6 +86,24 @@ contains
     line = "gravity: "//vector(mechanism%linkage%gravity, coherent_unit(model%units, &
       dimension_acceleration))
   end function gravity_words
+
+  !> `efforts: by ACTUATE along ram; DRIVE crank gives the motion alone`
+  pure function actuator_words(model) result(line)
+    type(model_t), intent(in) :: model !! with actuators
+    character(len=:), allocatable :: line
+
+    integer :: i
+
+    line = "efforts: by ACTUATE along "//model%actuators(1)%name%text
+    do i = 2, size(model%actuators)
+      line = line//", "//model%actuators(i)%name%text
+    end do
+    line = line//"; DRIVE "//model%drives(1)%subject%text
+    do i = 2, size(model%drives)
+      line = line//", "//model%drives(i)%subject%text
+    end do
+    line = line//trim(merge(" gives", " give ", size(model%drives) == 1))//" the motion alone"
+  end function actuator_words
 
   !> External loads, forces on pins and torques on links, in one line.
   pure function outside_loads(model, mechanism) result(line)

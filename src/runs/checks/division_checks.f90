@@ -36,6 +36,9 @@ contains
 
     in_links = "in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
       "' and the links that hold the same pins"
+    if (size(model%actuators) > 0) call add_error(diagnostics, model%actuators(1)%name, &
+      "forces "//in_links//" are not told with ACTUATE; take a redundant link or joint away, "// &
+      "or leave ACTUATE out")
     report = max(report_number(model, "reactions"), report_number(model, "bearings"), &
       report_number(model, "sizing"))
     motion = report_number(model, "motion")

@@ -421,8 +421,8 @@ contains
         if (allocated(found%positions%states(state)%error)) cycle
         do k = 1, size(variant%model%speed%value)
           rates = drive_rates(variant%model, k, i)
-          drives = drives_at_speed(variant%mechanism%linkage, found%joints, state, &
-            found%positions%crank(i), rates(1), rates(2), k)
+          drives = drives_at_speed(variant%mechanism%linkage, found%joints, &
+            found%positions%states(state), state, found%positions%crank(i), rates(1), rates(2), k)
           call widen(totals%torque, drives(3, 1))
         end do
       end do

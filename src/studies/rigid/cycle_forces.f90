@@ -148,8 +148,9 @@ contains
   end subroutine find_joints_at
 
   !> All forces at a place, of joints magnitudes, and the rates of drives and of the motor.
-  pure subroutine find_values(self, joints, state, at, number, values, rates)
+  pure subroutine find_values(self, positions, joints, state, at, number, values, rates)
     class(cycle_forces_t), intent(in) :: self
+    type(positions_t), intent(in) :: positions  !! of `positions_at`
     type(joints_result_t), intent(in) :: joints !! of `find_joints_at`
     integer, intent(in) :: state                !! the place among those of the joints
     real(wp), intent(in) :: at                  !! the place in the cycle
@@ -163,7 +164,8 @@ contains
     d = size(self%linkage%drives)
     motion = self%motion_at(at, number)
     associate (request => self%request)
-      drives = drives_at_speed(self%linkage, joints, state, motion(1), motion(2), motion(3), number)
+      drives = drives_at_speed(self%linkage, joints, positions%states(state), state, motion(1), &
+        motion(2), motion(3), number)
       forces = joints_at_speed(joints, state, motion(2), motion(3), number)
       values(:d) = drives(3, :)
       rates(:d) = drives(2, :)
@@ -228,7 +230,7 @@ contains
     associate (d => size(self%linkage%drives) + self%motors())
       allocate (values(d + size(joints%joints)), rates(d))
     end associate
-    call self%find_values(joints, 1, at, number, values, rates)
+    call self%find_values(there, joints, 1, at, number, values, rates)
     value = 1.0_wp
     if (kind /= of_rates) value = values(signal)
     if (kind /= of_forces) value = value*rates(signal)

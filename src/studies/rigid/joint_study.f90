@@ -10,6 +10,7 @@
 module joint_study
   use applied_loads, only: evaluate_loads, standing_pulls
   use constants, only: degree
+  use coordinate_study, only: coordinate_state, coordinate_state_t
   use coordinates, only: evaluated_t
   use elastic_reactions, only: elastic_division_t, least_open, self_stresses
   use errors, only: error_t, outcome_t
@@ -19,7 +20,7 @@ module joint_study
   use joint_forces, only: force_at_pin, joint_forces_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: cross, linkage_t, reference_point, turned, turned_back
+  use linkages, only: cross, is_actuated, linkage_t, reference_point, turned, turned_back
   use load_cases, only: case_count, constant_case
   use pose_types, only: pins_of_body, pose_t
   use position_loads, only: find_position_loads, find_speed_loads, position_loads_t
@@ -477,12 +478,14 @@ contains
     values(6) = values(6) + cross(arm, values(4:5))
   end function frame_at_speed
 
-  !> Position, rate and force of every drive at a position and speed.
-  pure function drives_at_speed(linkage, found, state, crank, speed, acceleration, number) &
+  !> Position, rate and force of every drive at a position and speed, or of the actuators that give
+  !! efforts in their place.
+  pure function drives_at_speed(linkage, found, at, state, crank, speed, acceleration, number) &
     result(drives)
     type(linkage_t), intent(in) :: linkage     !! its drives
     type(joints_result_t), intent(in) :: found !! for all positions
-    integer, intent(in) :: state               !! number; with a pose
+    type(state_t), intent(in) :: at            !! with a pose
+    integer, intent(in) :: state               !! its number
     real(wp), intent(in) :: crank              !! coordinate of the first drive [deg] or [m]
     real(wp), intent(in) :: speed              !! of the first drive [rad/s] or [m/s]
     real(wp), intent(in) :: acceleration       !! of the first drive [rad/s²] or [m/s²]
@@ -491,12 +494,18 @@ contains
     real(wp) :: drives(3, size(linkage%drives)) !! [deg, rad/s, N m] or [m, m/s, N]
 
     real(wp), dimension(size(linkage%drives)) :: rates, accelerations
+    type(coordinate_state_t) :: moved
     integer :: d
 
     call find_rates_of_drives(linkage, crank, rates, accelerations)
     do d = 1, size(linkage%drives)
-      drives(1, d) = drive_value(linkage, d, crank)
-      drives(2, d) = rates(d)*speed
+      if (is_actuated(linkage)) then
+        moved = coordinate_state(linkage, at%pose, at%coefficients, crank, &
+          linkage%actuators(d)%coordinate, 0.0_wp, [speed, acceleration])
+        drives(:2, d) = [moved%value, moved%rate]
+      else
+        drives(:2, d) = [drive_value(linkage, d, crank), rates(d)*speed]
+      end if
       drives(3, d) = speed**2*found%drive(d, 1, state) + acceleration*found%drive(d, 2, state) + &
         found%drive(d, 3, state)
     end do

@@ -1,5 +1,6 @@
 !> Forces in the joints at a position and at a speed: by statics, or divided by elasticity.
 module position_loads
+  use actuated_forces, only: find_actuator_fault
   use elastic_reactions, only: divide_by_elasticity, elastic_division_t, elastic_position_t, &
     find_divided, new_elastic_division
   use errors, only: error_of_numerics, error_t, outcome_t, set_error
@@ -56,7 +57,7 @@ contains
 
   !> Reactions to the unit loads.
   !!
-  !! Errors: those of `divide_by_elasticity`.
+  !! Errors: those of `find_actuator_fault` and `divide_by_elasticity`.
   subroutine find_position_loads(linkage, elements, pose, coefficients, found, error, division)
     type(linkage_t), intent(in) :: linkage       !! of any kind
     integer, intent(in) :: elements(:)           !! (bodies) on whose nodes the masses are lumped;
@@ -68,6 +69,8 @@ contains
     type(elastic_division_t), intent(in), optional :: division !! of this linkage, if its elasticity
                                                  !! divides forces
 
+    call find_actuator_fault(linkage, pose, error)
+    if (allocated(error)) return
     call find_unit_reactions(linkage, elements, pose, coefficients, found%unit)
     if (present(division)) call divide_by_elasticity(division, pose, coefficients, found%unit, &
       found%at, error)

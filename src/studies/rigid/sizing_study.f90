@@ -1,5 +1,6 @@
 !> Ratings of motors, bearings and the flywheel of a linkage over its whole cycle.
 module sizing_study
+  use actuated_forces, only: actuator_sense
   use constants, only: degree
   use cycle_forces, only: cycle_forces_t, is_timed, of_forces, of_powers, of_rates, sizing_request_t
   use elastic_reactions, only: elastic_division_t
@@ -12,7 +13,7 @@ module sizing_study
   use joint_study, only: joint_t, joints_result_t
   use kinds, only: wp
   use lagrange_study, only: find_lagrange_terms, lagrange_result_t
-  use linkages, only: linkage_t
+  use linkages, only: is_actuated, linkage_t
   use motion_programs, only: motion_program_t, program_period
   use linkage_paths, only: period_of
   use load_tables, only: load_period
@@ -255,6 +256,7 @@ contains
     type(positions_t), intent(out) :: positions
     type(joints_result_t), intent(out) :: joints
 
+    real(wp), allocatable :: sense(:)
     integer :: i
 
     positions = forces%positions_at(span%at)
@@ -271,6 +273,16 @@ contains
       found%error_crank = span%at(i)
       return
     end do
+    if (is_actuated(forces%linkage)) then
+      sense = [(actuator_sense(forces%linkage, positions%states(i)%pose), i=1, size(span%at))]
+      i = findloc(sense(2:)*sense(:size(sense) - 1) < 0.0_wp, .true., dim=1)
+      if (i > 0) then
+        call set_error(found%error, error_of_numerics, "no effort of ACTUATE holds the linkage "// &
+          "all the way: between two samples there is a place where it moves and they do not")
+        found%error_crank = span%at(i)
+        return
+      end if
+    end if
     i = findloc(any(joints%lock%friction > 0, dim=1), .true., dim=1)
     if (i > 0) then
       call set_error(found%error, error_of_numerics, "friction locks the linkage")
@@ -297,7 +309,7 @@ contains
     n = d + size(joints%joints)
     allocate (found%sized(n), values(size(span%at), n), rates(size(span%at), d))
     do i = 1, size(values, 1)
-      call forces%find_values(joints, i, span%at(i), number, values(i, :), rates(i, :))
+      call forces%find_values(positions, joints, i, span%at(i), number, values(i, :), rates(i, :))
     end do
     do s = 1, n
       associate (sized => found%sized(s))
@@ -330,7 +342,8 @@ contains
     end do
   end subroutine size_speed
 
-  !> The rate of a drive or of the motor, and its power; at constant speed the former is all.
+  !> The rate of a drive or of the motor, and its power; of a drive at constant speed the former is
+  !! all.
   subroutine size_motion(forces, span, number, signal, values, rates, sized)
     type(cycle_forces_t), intent(in) :: forces
     type(cycle_t), intent(in) :: span
@@ -341,7 +354,8 @@ contains
     real(wp) :: power(size(values))
 
     sized%rate = rates(1)
-    if (.not. is_timed(forces%request)) return
+    sized%varies = is_timed(forces%request) .or. is_actuated(forces%linkage)
+    if (.not. sized%varies) return
     power = values*rates
     associate (timed => sized%timed)
       call find_peak(forces, span, of_rates, number, signal, rates, sized%rate, timed%rate_at)

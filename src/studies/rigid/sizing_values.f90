@@ -17,12 +17,12 @@ module sizing_values
   !! with it, greatest and least speed.
   integer, parameter :: flywheel_values = 7
 
-  !> What varies with laws, and at constant speed does not.
+  !> What varies with laws, and of actuators; that of a drive at constant speed does not.
   type :: timed_t
-    real(wp) :: rate_at = 0.0_wp    !! where the rate is greatest [s]
+    real(wp) :: rate_at = 0.0_wp    !! where the rate is greatest [deg], of laws [s]
     real(wp) :: rms_rate = 0.0_wp   !! [rad/s] or [m/s]
     real(wp) :: peak_power = 0.0_wp !! greatest absolute value, with its sign [W]
-    real(wp) :: power_at = 0.0_wp   !! where it is [s]
+    real(wp) :: power_at = 0.0_wp   !! where it is, likewise
     real(wp) :: mean_power = 0.0_wp !! [W]
     real(wp) :: error(2) = 0.0_wp   !! of rates and powers, estimated, as shares of the greatest [-]
     real(wp) :: change(2) = 1.0_wp  !! of these from half as many samples [-]
@@ -37,9 +37,10 @@ module sizing_values
     real(wp) :: peak = 0.0_wp   !! greatest absolute value, with its sign [N m] or [N]
     real(wp) :: crank = 0.0_wp  !! position of the first drive there [deg], of laws the time [s]
     real(wp) :: angle = 0.0_wp  !! of a joint: of the force there, in the axes of its link [deg]
-    real(wp) :: rate = 0.0_wp   !! of a drive or the motor, of laws the greatest absolute value with
-                                !! its sign [rad/s] or [m/s]
-    type(timed_t) :: timed      !! of a drive or the motor with laws
+    real(wp) :: rate = 0.0_wp   !! of a drive or the motor, where it varies the greatest absolute
+                                !! value with its sign [rad/s] or [m/s]
+    logical :: varies = .false. !! its rate: of a drive or the motor with laws, or an actuator
+    type(timed_t) :: timed      !! where it does
     real(wp) :: rms = 0.0_wp    !! [N m] or [N]
     real(wp) :: mean = 0.0_wp   !! [N m] or [N]
     real(wp) :: cubic = 0.0_wp  !! cubic mean of absolute values [N m] or [N]
