@@ -112,8 +112,8 @@ contains
         to_string(found%samples)//" samples, peaks enclosed between them"
     else
       note = "over the "//to_string(found%samples)//" instants of TIME, "// &
-        to_string(found%period, 6)//" s, as the cycle: peaks are the greatest values at "// &
-        "instants, means those of straight lines between them"
+        to_string(found%period, 6)//" s, as the cycle: peaks are the greatest values "// &
+        "between the first and the last, means those of straight lines between instants"
     end if
   end function cycle_note
 

@@ -48,7 +48,7 @@ module sizing_study
     real(wp) :: period = 0.0_wp       !! its length
     real(wp) :: unit = 1.0_wp         !! in which peaks are enclosed: 1 deg, or a 360th part of a
                                       !! cycle in time
-    logical :: repeats = .true.       !! else samples are all that is known of it
+    logical :: repeats = .true.       !! else it is what the instants of the deck span
   end type cycle_t
 
   type :: sizing_result_t
@@ -448,7 +448,7 @@ contains
     end do
   end function linkage_rate
 
-  !> The greatest absolute value: between the highest samples, or of samples alone.
+  !> The greatest absolute value: between the highest samples.
   subroutine find_peak(forces, span, kind, number, signal, values, peak, place)
     type(cycle_forces_t), intent(in) :: forces
     type(cycle_t), intent(in) :: span
@@ -459,25 +459,26 @@ contains
     real(wp), intent(out) :: place        !! where it is
 
     integer, parameter :: most_peaks = 3
-    real(wp) :: height(size(values)), step, there, value
+    real(wp) :: height(size(values)), ends(2), there, value
     integer :: at, k
 
-    step = span%period/size(values)
     height = abs(values)
     at = maxloc(height, dim=1)
     peak = values(at)
     place = span%at(at)
-    if (is_constant(values) .or. .not. span%repeats) return
+    if (is_constant(values)) return
     height = merge(height, 0.0_wp, height >= cshift(height, 1) .and. height >= cshift(height, -1))
     do k = 1, most_peaks
       at = maxloc(height, dim=1)
       if (height(at) <= 0.0_wp) exit
       height(at) = 0.0_wp
-      call enclose_peak(forces, span, kind, number, signal, span%from + step*[at - 2, at], &
-        there, value)
+      ends = [span%at(max(1, at - 1)), span%at(min(at + 1, size(values)))]
+      if (span%repeats) ends = span%at(at) + span%period/size(values)*[-1, 1]
+      call enclose_peak(forces, span, kind, number, signal, ends, there, value)
       if (abs(value) <= abs(peak)) cycle
       peak = value
-      place = span%from + modulo(there - span%from, span%period)
+      place = there
+      if (span%repeats) place = span%from + modulo(there - span%from, span%period)
     end do
   end subroutine find_peak
 
@@ -532,9 +533,7 @@ contains
     integer :: k
 
     sized%angle = forces%angle_at(sized%crank, sized%joint, number)
-    if (.not. span%repeats) then
-      sized%angle_error = 0.0_wp
-    else if (stays) then
+    if (stays) then
       sized%angle_error = 0.0_wp
       do k = 1, constant_angles
         angle = forces%angle_at(span%from + span%period*k/constant_angles, sized%joint, number)
