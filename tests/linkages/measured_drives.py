@@ -4,8 +4,8 @@
 
 The random four-bars, slider-cranks and six-bars of rigid_tables.py, without friction in joints.  At the value, rate and acceleration that
 a measure has at a crank angle, the deck that drives this measure, its places drawn near there, has the same places, velocities,
-accelerations, load on the frame and, by the power that flows, the same force.  Every
-measure of the deck is driven in turn, but where it moves little.
+accelerations, load on the frame and, by the power that flows, the same force; where the angle of the crank is actuated beside, it has the
+torque and the forces in the joints that the crank had as the drive.  Every measure of the deck is driven in turn, but where it moves little.
 """
 import math
 import os
@@ -21,7 +21,7 @@ ALLOWED = 1e-9
 LEAST = 0.05                            # rate of a measure per rate of the crank, as a share of the linkage, or of angles
 
 
-def deck_of(linkage, drive, crank, speed, alpha, drawn):
+def deck_of(linkage, drive, crank, speed, alpha, drawn, actuated=False):
     """The deck with another drive at one position, without branches and with a drawing where there is one."""
     cards = []
     for card in linkage.text(Look()).splitlines():
@@ -30,7 +30,10 @@ def deck_of(linkage, drive, crank, speed, alpha, drawn):
         cards.append(card + " format=linkage" if card.startswith("UNITS") else card)
     cards += [f"PIN {pin} {x!r} {y!r}" for pin, (x, y) in drawn.items()]
     cards += [f"DRIVE {drive}", f"CRANK {crank!r}", f"SPEED {speed!r} alpha={alpha!r}"]
-    return "\n".join(cards + [f"REPORT {report}" for report in ("pins", "kinematics", "drives", "frame about=0,0", "coordinates")]) + "\n"
+    if actuated:
+        cards += ["MEASURE swing angle crank", "ACTUATE swing"]
+    reports = ("pins", "kinematics", "drives", "reactions", "frame about=0,0", "coordinates")
+    return "\n".join(cards + [f"REPORT {report}" for report in reports]) + "\n"
 
 
 def differences(base, driven, scale, force):
@@ -57,6 +60,17 @@ def tables_of(program, folder, name, text):
     return run(program, path, folder)
 
 
+def of_actuator(base, actuated, force):
+    """The same of forces in the joints and the torque on the crank."""
+    size = max(abs(row[column]) for row in base["reactions"].rows for column in ("fx", "fy"))
+    others = {(row["pin"], row["link"]): row for row in actuated["reactions"].rows}
+    found = {"forces": max(abs(row[column] - others[row["pin"], row["link"]][column]) for row in base["reactions"].rows
+                           for column in ("fx", "fy")) / size}
+    (one,), (other,) = base["drives"].rows, actuated["drives"].rows
+    found["torque"] = abs(one["force"] - other["force"]) / max(abs(one["force"]), force)
+    return found
+
+
 def examine(seed, program, scratch):
     """Largest difference of a case, and how many measures it had."""
     draw = random.Random(seed)
@@ -80,7 +94,10 @@ def examine(seed, program, scratch):
         if abs(row["rate"]) < LEAST * speed * (1 if name in ("lean", "bend") else size):
             continue
         driven = tables_of(program, folder, name, deck_of(linkage, name, row["value"], row["rate"], row["acceleration"], drawn))
-        for what, difference in differences(base, driven, scale, force).items():
+        found = differences(base, driven, scale, force)
+        actuated = tables_of(program, folder, name + "_by_crank", deck_of(linkage, name, row["value"], row["rate"], row["acceleration"],
+                                                                           drawn, actuated=True))
+        for what, difference in (*found.items(), *of_actuator(base, actuated, force).items()):
             if not difference <= ALLOWED:
                 raise ValueError(f"{name}: {what} differs by {difference:.1e}")
             largest = max(largest, difference)
