@@ -97,8 +97,8 @@ module card_table
     card_kind_t("SLIDER", least=2, most=3, pattern="SLIDER pin guide [link] [mass= inertia=]", &
       help="a block at a pin slides along a GUIDE or LINK; the third word: a link fixed to it"), &
     card_kind_t("DRIVE", least=1, most=4, &
-      pattern="DRIVE link [against link], DRIVE pin guide, DRIVE link length or DRIVE measure, "// &
-      "with [free] [law=] [at=] [ratio= phase=] [change_points=through|stop|branch]", &
+      pattern="DRIVE link [against link], pin guide, link length or measure, with [free] "// &
+      "[law=] [at= speed=] [ratio= phase=] [change_points=through|stop|branch]", &
       choices="against length free", &
       help="whose angle, place or length is given; required; further ones: at= or ratio="), &
     card_kind_t("BRANCH", least=1, most=4, &

@@ -108,7 +108,7 @@ contains
   !! Errors: the start is out of reach, a change point, or a dead point with a speed; a speed beyond
   !! the table of the motor; no memory.
   subroutine start_linkage_motion(linkage, rigid, is_free, drive, crank, speed, &
-    duration, motion, error, gear, through)
+    duration, motion, error, gear, through, rates)
     type(linkage_t), intent(in) :: linkage           !! of any kind, with loads and a path if it
                                                      !! needs one
     type(rigid_body_t), intent(in) :: rigid(:)       !! (bodies) of the linkage
@@ -125,10 +125,13 @@ contains
     logical, intent(in), optional :: through         !! a loop goes straight through change points,
                                                      !! in place of a stop there; others go where
                                                      !! their path leads
+    real(wp), intent(in), optional :: rates(:)       !! (drives) of further free ones at the start,
+                                                     !! beside those of the relation [rad/s] or
+                                                     !! [m/s]; absent: 0
 
     type(pose_t) :: pose
     type(linkage_sample_t) :: first
-    real(wp), allocatable :: rates(:), determinants(:), scale(:)
+    real(wp), allocatable :: first_rates(:), determinants(:), scale(:)
     integer :: f, k
 
     associate (system => motion%system)
@@ -144,10 +147,12 @@ contains
       f = size(system%free)
       call place_links(linkage, crank, pose, error)
       if (allocated(error)) return
+      first_rates = [(speed*drive_rate(linkage, system%free(k)), k=1, f)]
+      if (present(rates)) first_rates = first_rates + rates(system%free)
       if (has_loop(linkage)) call take_loop(motion, crank, speed, through, error)
       if (allocated(error)) return
       if (any(abs(pose%sine) < dead_point_sine) .and. .not. allocated(pose%coefficients) .and. &
-        abs(speed) > 0.0_wp) then
+        any(abs(first_rates) > 0.0_wp)) then
         call set_error(error, error_of_dead_point, "dead point: at a limit position the "// &
           trim(merge("crank      ", "first drive", allocated(system%loop)))// &
           " turns back and can have no speed; expected speed=0")
@@ -173,11 +178,10 @@ contains
       if (.not. allocated(system%loop)) then
         allocate (motion%state(2*f + 1))
         motion%state = 0.0_wp
-        rates = [(speed*drive_rate(linkage, system%free(k)), k=1, f)]
         if (system%by_drives) then
-          call take_drives(motion, rates)
-        else if (abs(speed) > 0.0_wp) then
-          call find_rates_of_coordinates(system, rates, motion%state)
+          call take_drives(motion, first_rates)
+        else if (any(abs(first_rates) > 0.0_wp)) then
+          call find_rates_of_coordinates(system, first_rates, motion%state)
         end if
       end if
       call sample_linkage_motion(motion, first)

@@ -10,8 +10,8 @@ module drive_cards
   use spelling, only: suggestion
   use text, only: same_word, word_list
   use tokens, only: token_t
-  use units, only: coherent_factor, dimension_angle, dimension_length, dimension_none, to_si, &
-    unit_system_t, unit_t
+  use units, only: coherent_factor, dimension_angle, dimension_length, dimension_none, &
+    dimension_rate, dimension_velocity, to_si, unit_system_t, unit_t
   implicit none (type, external)
   private
 
@@ -43,6 +43,8 @@ module drive_cards
     logical :: has_at = .false.    !! `at=` is given
     real(wp) :: at = 0.0_wp        !! [rad], of a slider or a ram [m]
     type(token_t) :: at_word
+    real(wp) :: speed = 0.0_wp     !! of a free one where REPORT motion begins [rad/s] or [m/s]
+    type(token_t) :: speed_word
     logical :: has_ratio = .false. !! `ratio=` is given
     real(wp) :: ratio = 0.0_wp     !! position over that of the first drive [SI: 1, m/rad or rad/m]
     type(token_t) :: ratio_word
@@ -172,6 +174,7 @@ contains
     drive%subject = nowhere
     drive%against = nowhere
     drive%at_word = nowhere
+    drive%speed_word = nowhere
     drive%ratio_word = nowhere
     drive%law = nowhere
     drive%change_points_word = nowhere
@@ -257,7 +260,7 @@ contains
     end if
   end subroutine read_subject
 
-  !> Reads `at=`, or `ratio=` and `phase=`.
+  !> Reads `at=` and `speed=`, or `ratio=` and `phase=`.
   pure subroutine read_position(card, first_kind, system, diagnostics, drive)
     type(card_t), intent(in) :: card
     integer, intent(in) :: first_kind !! of the first drive
@@ -265,7 +268,9 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(drive_card_t), intent(inout) :: drive
 
-    integer :: dimension(4), i
+    character(len=*), parameter :: of_position(*) = [character(len=5) :: "at", "speed", "ratio", &
+      "phase"]
+    integer :: dimension(4), i, k
     logical :: fine
 
     dimension = merge(dimension_length, dimension_angle, moves_along(drive%kind))
@@ -273,19 +278,31 @@ contains
     if (fine) drive%at_word = value_of(card, "at")
     call read_entry_quantity(card, "phase", dimension, system, .false., diagnostics, drive%phase, &
       fine)
+    call read_entry_quantity(card, "speed", merge(dimension_velocity, dimension_rate, &
+      moves_along(drive%kind)), system, .false., diagnostics, drive%speed, fine)
+    if (fine .and. drive%is_free .and. .not. drive%has_ratio) drive%speed_word = value_of(card, &
+      "speed")
     if (has_value(card, "ratio")) then
       call read_ratio(value_of(card, "ratio"), moves_along(drive%kind), moves_along(first_kind), &
         system, diagnostics, drive)
     end if
     do i = 1, size(card%entries)
       associate (key => card%entries(i)%key)
-        if (drive%law%line > 0 .and. (same_word(key%text, "at") .or. same_word(key%text, &
-          "ratio") .or. same_word(key%text, "phase"))) then
+        if (drive%law%line > 0 .and. any([(same_word(key%text, trim(of_position(k))), k=1, &
+          size(of_position))])) then
           call add_error(diagnostics, key, "'"//key%text//"=' has no meaning beside 'law='")
           return
         else if (drive%has_at .and. (same_word(key%text, "ratio") .or. same_word(key%text, &
           "phase"))) then
           call add_error(diagnostics, key, "'"//key%text//"=' has no meaning beside 'at='")
+          return
+        else if (same_word(key%text, "speed") .and. .not. drive%is_free) then
+          call add_error(diagnostics, key, "'speed=' is that with which a free drive begins in "// &
+            "REPORT motion; expected 'free' as the last word of this card")
+          return
+        else if (same_word(key%text, "speed") .and. drive%has_ratio) then
+          call add_error(diagnostics, key, "'speed=' has no meaning beside 'ratio=': the drive "// &
+            "begins with the speed of the first one times this")
           return
         else if (same_word(key%text, "phase") .and. .not. drive%has_ratio) then
           call add_error(diagnostics, key, "'phase=' needs 'ratio='")

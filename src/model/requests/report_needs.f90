@@ -35,6 +35,13 @@ contains
     if (i > 0 .and. any(model%drives(2:)%is_free)) call add_error(diagnostics, &
       model%reports(i)%keyword, "rests of a linkage with more than one free drive "// &
       "are not found yet")
+    if (report_number(model, "motion") == 0) then
+      do i = 1, size(model%drives)
+        if (model%drives(i)%speed_word%line > 0) call add_error(diagnostics, &
+          model%drives(i)%speed_word, "'speed=' is that with which a free drive begins in "// &
+          "REPORT motion, and there is none")
+      end do
+    end if
     i = report_number(model, "geometry")
     if (i > 0 .and. .not. runs_in_time(model)) then
       if (model%reports(i)%times_word%line > 0) call add_error(diagnostics, &

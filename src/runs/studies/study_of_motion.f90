@@ -91,6 +91,7 @@ contains
         asked%with_power .or. asked%with_motor .or. asked%with_coordinates
     end associate
     request%is_free = model%drives%is_free
+    request%rates = model%drives%speed
     request%drive = drive_of(model)
     request%gear = gear_of(model%motor)
   end function motion_request_of

@@ -34,6 +34,8 @@ module motion_study
   type :: motion_request_t
     real(wp) :: start = 0.0_wp           !! of the first drive [deg] or [m]
     real(wp) :: speed = 0.0_wp           !! of the first drive [rad/s] or [m/s]
+    real(wp), allocatable :: rates(:)    !! (drives) of further free ones at the start [rad/s] or
+                                         !! [m/s]
     real(wp) :: end_time = 0.0_wp        !! [s]
     real(wp), allocatable :: instants(:) !! of the samples, ascending from 0 to `end_time` [s]
     logical, allocatable :: is_free(:)   !! (drives) marked in the deck
@@ -124,7 +126,7 @@ contains
     end if
     call start_linkage_motion(under_way%linkage, rigid_bodies_of(linkage, elements), &
       request%is_free, request%drive, request%start, request%speed, request%end_time, &
-      under_way%motion, result%error, request%gear, request%through)
+      under_way%motion, result%error, request%gear, request%through, request%rates)
     result%has_begun = .not. allocated(result%error)
     under_way%is_over = allocated(result%error)
   end subroutine begin_motion
