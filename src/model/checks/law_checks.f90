@@ -31,7 +31,7 @@ module law_checks
   !! relative to themselves: what is left by conversions of units.
   real(wp), parameter :: rounding = 1.0e-12_wp
 
-  !> Rates at both ends of a period that differ by no more than this share are one.
+  !> Rates at both ends of a period that differ by no more than this share of the greatest are one.
   real(wp), parameter :: least_jump = 1.0e-9_wp
 
   !> Why reports do not serve several laws.
@@ -318,7 +318,8 @@ contains
     type(motion_program_t), intent(inout) :: program
     logical, intent(out) :: fine
 
-    real(wp) :: range(2), time, ends(0:2, 2)
+    integer, parameter :: samples = 64
+    real(wp) :: range(2), time, ends(0:2, 2), motion(0:2), greatest
     integer :: step, i
 
     program%formula = card%formula
@@ -326,13 +327,22 @@ contains
     range = [0.0_wp, card%formula%period]
     if (range(2) <= 0.0_wp .and. size(model%time%value) > 0) range = [minval(model%time%value), &
       maxval(model%time%value)]
+    if (card%formula%period <= 0.0_wp) then
+      ! Drawings may be asked for beyond.
+      do i = 1, size(model%reports)
+        associate (asked => model%reports(i)%crank%value)
+          if (model%reports(i)%times_word%line > 0 .and. size(asked) > 0) range = [min(range(1), &
+            minval(asked)), max(range(2), maxval(asked))]
+        end associate
+      end do
+    end if
     call find_trouble(program%formula, range(1), range(2), step, time)
     fine = step == 0
     if (.not. fine) then
       associate (bytes => program%formula%steps(step)%place)
         call add_error(diagnostics, place_in(card%formula_words, max(bytes, 1)), &
           "this has no value, or no acceleration, near t = "//to_string(time, 6)//" s: it "// &
-          "divides by 0, is a root of 0, or the like")
+          "divides by 0, has a root of 0 or less, or the like")
       end associate
       return
     end if
@@ -340,9 +350,14 @@ contains
     do i = 1, 2
       ends(:, i) = program_values(program, range(i))
     end do
+    greatest = 0.0_wp
+    do i = 0, samples
+      motion = program_values(program, range(2)*i/samples)
+      greatest = max(greatest, abs(motion(1)))
+    end do
     program%formula%period = card%formula%period
     program%formula%way = ends(0, 2) - ends(0, 1)
-    if (abs(ends(1, 2) - ends(1, 1)) > least_jump*maxval(abs(ends(1, :)))) call add_warning( &
+    if (abs(ends(1, 2) - ends(1, 1)) > least_jump*greatest) call add_warning( &
       diagnostics, card%formula_words(1), "the velocity jumps where a period of this formula "// &
       "ends: forces are infinite there, and tables do not have them")
   end subroutine take_formula
