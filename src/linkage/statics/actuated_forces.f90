@@ -6,7 +6,7 @@
 !! made of cases, and of friction, holds.
 module actuated_forces
   use applied_loads, only: add_effort
-  use coordinate_types, only: coordinate_t, is_distance, is_sum
+  use coordinate_types, only: coordinate_t, is_sum
   use coordinates, only: evaluate, evaluated_t, is_turning
   use dense_factor, only: dense_factor_t, factorize, least_singular_value, solve_transposed
   use errors, only: error_of_numerics, error_t, set_error
@@ -184,21 +184,18 @@ contains
     end do
   end subroutine press_rams
 
-  !> The body whose driven length a coordinate is; 0: none.
+  !> The body whose driven length a coordinate is; 0: none. A measure between the same pins acts
+  !! beside the ram.
   pure function ram_of(linkage, coordinate) result(body)
     type(linkage_t), intent(in) :: linkage
     type(coordinate_t), intent(in) :: coordinate
     integer :: body
 
-    integer :: d
-
-    do d = 1, size(linkage%drives)
-      if (linkage%drives(d)%kind /= drive_of_length .or. coordinate%kind /= is_distance) cycle
-      body = linkage%drives(d)%body
-      if (all(coordinate%at%pin == [linkage%bodies(body)%first_pin, &
-        linkage%bodies(body)%last_pin])) return
-    end do
     body = 0
+    if (coordinate%drive == 0) return
+    associate (drive => linkage%drives(coordinate%drive))
+      if (drive%kind == drive_of_length) body = drive%body
+    end associate
   end function ram_of
 
   !> What actuators put on the ground beside the forces in the joints, those of rams.

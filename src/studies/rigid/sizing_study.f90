@@ -67,8 +67,8 @@ contains
   !> Peaks and means over the cycle for every speed, and flywheels.
   !!
   !! Peaks between samples are enclosed by golden-section search around the three highest samples.
-  !! Errors are estimated by those with half as many samples. Of laws the cycle is the period of a
-  !! periodic table, or the instants are its samples, and peaks are the greatest of these. Errors:
+  !! Errors are estimated by those with half as many samples. Of laws the cycle is a period that
+  !! they have, or what the instants span, which then are its samples. Errors:
   !! the first drive does not turn fully, positions and loads do not repeat, or those of a position.
   subroutine find_sizing(linkage, elements, request, threads, found, division)
     type(linkage_t), intent(in) :: linkage       !! of any kind, with masses
@@ -277,8 +277,8 @@ contains
       sense = [(actuator_sense(forces%linkage, positions%states(i)%pose), i=1, size(span%at))]
       i = findloc(sense(2:)*sense(:size(sense) - 1) < 0.0_wp, .true., dim=1)
       if (i > 0) then
-        call set_error(found%error, error_of_numerics, "no effort of ACTUATE holds the linkage "// &
-          "all the way: between two samples there is a place where it moves and they do not")
+        call set_error(found%error, error_of_numerics, "ACTUATE does not hold the linkage "// &
+          "all the way: between two samples it can move while the actuators do not")
         found%error_crank = span%at(i)
         return
       end if
