@@ -94,6 +94,10 @@ contains
           end associate
         case (of_slider)
           drive = findloc(linkage%drives%slider, number, dim=1)
+          ! Its measure tells what drives it.
+          if (drive > 0) then
+            if (model%drives(drive)%measure > 0) drive = 0
+          end if
           it = slider_coordinate(linkage, number)
         case (of_measure)
           drive = findloc(model%drives%measure, number, dim=1)

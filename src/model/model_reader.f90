@@ -420,7 +420,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model !! has its units
 
-    integer :: so_far(size(card_kinds)), i, kind, first_drive
+    integer :: so_far(size(card_kinds)), i, kind, first_drive, first_kind
     logical :: on_link, of_length
 
     allocate (model%materials(number_of(cards, "MATERIAL")), &
@@ -440,6 +440,8 @@ contains
     do first_drive = 1, size(cards)
       if (same_word(cards(first_drive)%keyword%text, "DRIVE")) exit
     end do
+    first_kind = 0
+    if (first_drive <= size(cards)) first_kind = kind_of_drive(cards(first_drive), cards)
     so_far = 0
     do i = 1, size(cards)
       kind = card_kind_number(cards(i)%keyword%text)
@@ -451,8 +453,8 @@ contains
       of_length = card_kinds(kind)%keyword == "LAW"
       if (of_length) of_length = law_of_length(cards(i), cards)
       call read_card(cards(i), trim(card_kinds(kind)%keyword), so_far(kind), &
-        cards(min(first_drive, size(cards))), on_link, of_length, cards, reports, diagnostics, &
-        model)
+        cards(min(first_drive, size(cards))), first_kind, on_link, of_length, cards, reports, &
+        diagnostics, model)
     end do
     if (size(model%drives) > 0) model%drive = model%drives(1)%subject
   end subroutine read_model_cards
@@ -497,12 +499,13 @@ contains
   end function number_of
 
   !> Reads one card. UNITS is read before; INCLUDE, SET and VARY are already carried out.
-  subroutine read_card(card, keyword, number, first_drive, on_link, of_length, cards, reports, &
-    diagnostics, model)
+  subroutine read_card(card, keyword, number, first_drive, first_kind, on_link, of_length, cards, &
+    reports, diagnostics, model)
     type(card_t), intent(in) :: card
     character(len=*), intent(in) :: keyword       !! as in the table of cards
     integer, intent(in) :: number                 !! of the card among those of its keyword, from 1
     type(card_t), intent(in) :: first_drive       !! the first DRIVE card, if there is one
+    integer, intent(in) :: first_kind             !! what it drives; 0 without one
     logical, intent(in) :: on_link                !! of LOAD: its first word names a link
     logical, intent(in) :: of_length              !! of LAW: it is that of a slider or a ram
     type(card_t), intent(in) :: cards(:)          !! all of the deck
@@ -515,14 +518,9 @@ contains
     type(torque_card_t) :: torque
     type(process_card_t) :: process
     type(shaft_card_t) :: shaft
-    integer :: first_kind
     logical :: by_length
 
-    by_length = .false.
-    if (same_word(first_drive%keyword%text, "DRIVE")) then
-      first_kind = kind_of_drive(first_drive, cards)
-      by_length = moves_along(first_kind)
-    end if
+    by_length = moves_along(first_kind)
     associate (system => model%units)
       select case (keyword)
       case ("TITLE")

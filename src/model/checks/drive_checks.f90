@@ -5,6 +5,7 @@ module drive_checks
   use drive_cards, only: branch_forward, branch_t, drive_angle, drive_card_t, &
     drive_measured_angle, drive_measured_length, drive_ram, drive_relative, drive_slider
   use joint_checks, only: seek_pin
+  use kinds, only: wp
   use measure_cards, only: measure_along, measure_angle
   use models, only: model_t
   use name_checks, only: kind_of_unknown, pin_names
@@ -17,7 +18,7 @@ module drive_checks
 
   public :: check_drives
 
-  !> Of a sum that is driven: as `most_terms` in `src/linkage/coordinates/coordinate_types.f90`.
+  !> Most terms of a driven sum: as `most_terms` of `src/linkage/coordinates/coordinate_types.f90`.
   integer, parameter :: most_terms = 6
 
 contains
@@ -137,6 +138,10 @@ contains
       if (size(measure%terms) > most_terms) call add_error(diagnostics, drive%subject, "'"// &
         drive%subject%text//"' adds "//to_string(size(measure%terms))//" coordinates; a sum "// &
         "that is driven has at most "//to_string(most_terms), measure%name, "the sum is here")
+      if (drive%kind == drive_measured_angle .and. any(abs(measure%weights - &
+        anint(measure%weights)) > 0.0_wp)) call add_error(diagnostics, drive%subject, "the "// &
+        "weights of angles in a sum that is driven are whole numbers: others lose turns", &
+        measure%name, "the sum is here")
     end associate
   end subroutine find_driven_measure
 

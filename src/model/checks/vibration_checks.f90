@@ -16,7 +16,7 @@ module vibration_checks
 contains
 
   !> Checks rigid links, masses and forces where beams are needed. Errors: those of `check_rigid`
-  !! where all links are; a measure that is driven and not free; rigid links with `SOLVER dense` or
+  !! where all links are; a measure that is driven; rigid links with `SOLVER dense` or
   !! `band`; those of `check_massless`, `check_bending` and `check_nodal`.
   pure subroutine check_vibrations(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
@@ -25,7 +25,7 @@ contains
     integer :: rigid
 
     if (.not. bends_links(model) .or. size(model%links) == 0) return
-    call refuse_held_measure(diagnostics, model)
+    call refuse_driven_measure(diagnostics, model)
     if (all(model%links%rigid)) then
       call check_rigid(diagnostics, model)
       return
@@ -42,20 +42,21 @@ contains
     call check_nodal(diagnostics, model)
   end subroutine check_vibrations
 
-  !> A drive clamps the links that it drives, or holds a pin on its line: one of a measure neither.
-  pure subroutine refuse_held_measure(diagnostics, model)
+  !> A drive clamps the links that it drives, or holds a pin on its line, and where it is free loads
+  !! are balanced there: one of a measure does neither.
+  pure subroutine refuse_driven_measure(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
     integer :: i, report
 
-    i = findloc(model%drives%measure > 0 .and. .not. model%drives%is_free, .true., dim=1)
+    i = findloc(model%drives%measure > 0, .true., dim=1)
     if (i == 0) return
     report = findloc(model%reports%kind%response .or. model%reports%kind%beams, .true., dim=1)
-    call add_error(diagnostics, model%drives(i)%subject, "a link that bends is not held by a "// &
-      "measure; expected 'free' on this card, or DRIVE of a link, a slider or a ram", &
-      model%reports(report)%keyword, "this report is on links that bend")
-  end subroutine refuse_held_measure
+    call add_error(diagnostics, model%drives(i)%subject, "links that vibrate are not held, nor "// &
+      "their loads balanced, along a measure; expected DRIVE of a link, a slider or a ram", &
+      model%reports(report)%keyword, "they vibrate in this report")
+  end subroutine refuse_driven_measure
 
   !> The most modes that a linkage may have: as many as free drives where all links are rigid; where
   !! links that bend have no mass, as many as the masses that move may have freedoms. Their number

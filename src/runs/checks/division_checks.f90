@@ -61,8 +61,8 @@ contains
     drive = findloc(model%drives%measure > 0, .true., dim=1)
     if (drive > 0) then
       call add_error(diagnostics, model%drives(drive)%subject, "the forces "//in_links// &
-        " are divided by how links bend, and these are not held by a measure; expected DRIVE "// &
-        "of a link, a slider or a ram")
+        " are divided by how links bend, and a drive of a measure does not hold these; "// &
+        "expected DRIVE of a link, a slider or a ram")
       return
     end if
     if (size(model%frictions) > 0) call check_divided_friction(model, in_links, diagnostics)
