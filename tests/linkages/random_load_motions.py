@@ -28,7 +28,7 @@ STEPS, WINDOW = 256, 32          # of a motion, and of an integral
 
 def deck(case, seed):
     """The linkage with the middle of its range as the start, and a motor; (text, motor)."""
-    lines = [line for line in case.text(5).splitlines() if not line.startswith(("CRANK", "SPEED", "REPORT", "FRICTION"))]
+    lines = [line for line in case.text(5).splitlines() if not line.startswith(("CRANK", "SPEED", "REPORT", "FRICTION", "ACTUATE"))]
     draw = random.Random(seed)
     start = case.first + case.span * case.unit / 2
     speed = draw.choice((0, 0.4 * case.scale, -0.3 * case.scale) if case.linear else (0, 2, -3))

@@ -228,27 +228,30 @@ contains
     real(wp), intent(out) :: time    !! where [s]
 
     integer, parameter :: samples = 4096
-    real(wp) :: v(0:2, size(formula%steps)), at(0:samples)
-    real(wp), allocatable :: guards(:, :, :)
+    !> Numbers of a deck are below this, too.
+    real(wp), parameter :: greatest = 1.0e30_wp
+    real(wp), allocatable :: v(:, :), guards(:, :, :) !! at the last sample and at this one
+    real(wp) :: at(0:samples)
     logical :: halts(size(ieee_usual))
     integer :: i, k
 
     number = 0
     time = from
-    allocate (guards(0:1, size(formula%steps), 0:samples))
+    allocate (v(0:2, size(formula%steps)), guards(0:1, 2, size(formula%steps)))
     at = [(from + (to - from)*i/samples, i=0, samples)]
     call ieee_get_halting_mode(ieee_usual, halts)
     call ieee_set_halting_mode(ieee_usual, .false.)
     search: do i = 0, samples
       call evaluate_steps(formula, at(i), v)
       do k = 1, size(formula%steps)
-        guards(:, k, i) = guard_of(formula%steps(k), v)
+        guards(:, 1, k) = guards(:, 2, k)
+        guards(:, 2, k) = guard_of(formula%steps(k), v)
         time = at(i)
-        if (.not. guards(0, k, i) > 0.0_wp .or. .not. all(abs(v(:, k)) <= huge(1.0_wp))) then
+        if (.not. guards(0, 2, k) > 0.0_wp .or. .not. all(abs(v(:, k)) <= greatest)) then
           ! Where it is not positive at first it has the other sign, or none.
           number = k
         else if (i > 0) then
-          if (touches_zero(formula, k, at(i - 1:i), guards(:, k, i - 1:i))) number = k
+          if (touches_zero(formula, k, at(i - 1:i), guards(:, :, k))) number = k
         end if
         if (number > 0) exit search
       end do

@@ -342,7 +342,7 @@ contains
       associate (bytes => program%formula%steps(step)%place)
         call add_error(diagnostics, place_in(card%formula_words, max(bytes, 1)), &
           "this has no value, or no acceleration, near t = "//to_string(time, 6)//" s: it "// &
-          "divides by 0, has a root of 0 or less, or the like")
+          "divides by 0, has a root of 0 or less, or grows beyond 1e30")
       end associate
       return
     end if

@@ -236,7 +236,7 @@ contains
     if (kind /= of_forces) value = value*rates(signal)
   end function value_at
 
-  !> Direction of the force of a joint, in the axes of its link [deg].
+  !> Direction of the force of a joint, in the axes of its link; 0 where it has none [deg].
   function angle_at(self, at, joint, number) result(angle)
     class(cycle_forces_t), intent(in) :: self
     real(wp), intent(in) :: at           !! a place where joints have forces [deg] or [s]
@@ -248,8 +248,11 @@ contains
     real(wp), allocatable :: bearings(:, :)
     real(wp) :: motion(3)
 
+    angle = 0.0_wp
     there = self%positions_at([at])
+    if (allocated(there%states(1)%error)) return
     call self%find_joints_at([at], there, 1, joints)
+    if (allocated(joints%outcome(1)%error)) return
     motion = self%motion_at(at, number)
     bearings = bearings_at_speed(self%linkage, joints, there%states(1)%pose, 1, motion(2), &
       motion(3), number)

@@ -131,7 +131,10 @@ contains
       else
         call find_period_of_laws(forces, span)
         if (span%repeats) span%repeats = returns(forces, span)
-        if (.not. span%repeats) span%period = maxval(request%times) - minval(request%times)
+        if (.not. span%repeats) then
+          span%from = minval(request%times)
+          span%period = maxval(request%times) - span%from
+        end if
         span%unit = span%period/360.0_wp
         found%samples = merge(fewest_samples, size(request%times), span%repeats)
         if (.not. span%repeats .and. size(request%times) < 2) call set_error(found%error, &
@@ -529,7 +532,7 @@ contains
     type(sized_t), intent(inout) :: sized !! with the peak
 
     integer, parameter :: constant_angles = 8
-    real(wp) :: angle
+    real(wp) :: angle, near
     integer :: k
 
     sized%angle = forces%angle_at(sized%crank, sized%joint, number)
@@ -540,7 +543,10 @@ contains
         sized%angle_error = max(sized%angle_error, between_angles(angle, sized%angle))
       end do
     else
-      angle = forces%angle_at(sized%crank + flatness*span%unit, sized%joint, number)
+      ! Beyond its last instant nothing is known of a motion that does not repeat.
+      near = flatness*span%unit
+      if (.not. span%repeats .and. sized%crank + near > maxval(span%at)) near = -near
+      angle = forces%angle_at(sized%crank + near, sized%joint, number)
       sized%angle_error = between_angles(angle, sized%angle)
     end if
     sized%angle_error = sized%angle_error + round_off_share*180.0_wp
