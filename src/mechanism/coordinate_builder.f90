@@ -37,11 +37,9 @@ contains
                                                !! gets coordinates and actuators
     type(listed_coordinate_t), allocatable, intent(out) :: listed(:) !! (coordinates)
 
-    type(named_coordinate_t), allocatable :: named(:)
     integer :: i
 
     call list_coordinates(model, links, pins, linkage, listed)
-    call find_named_coordinates(model, named)
     ! Those of springs come first.
     do i = 1, size(model%springs)
       linkage%loads(size(model%processes) + i)%coordinate = i
@@ -59,7 +57,7 @@ contains
       associate (process => model%processes(i))
         if (process%over /= over_measure) cycle
         linkage%loads(i)%variable = linkage%coordinates(process%number)
-        linkage%loads(i)%variable_name = named(process%number)%name
+        linkage%loads(i)%variable_name = listed(process%number)%name
       end associate
     end do
   end subroutine build_coordinates

@@ -184,7 +184,7 @@ contains
     call take_sliders(model, pins, assembly%link, linkage)
     call take_turns(model, pins, assembly%link, linkage)
     call take_drives(model, assembly%link, linkage)
-    call list_coordinates(model, assembly%link, pins, linkage)
+    if (any(model%drives%measure > 0)) call list_coordinates(model, assembly%link, pins, linkage)
     call take_sides(model, pins, sides)
     if (size(model%drawn_pins) > 0) call complete_drawing(linkage, model%crank%value)
     assembly%linkage = linkage

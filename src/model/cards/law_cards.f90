@@ -114,7 +114,7 @@ contains
     type(entry_t) :: entry
     type(quantity_t) :: found
     type(unit_t) :: metre
-    real(wp) :: factor
+    real(wp) :: period, factor
     logical :: fine
     integer :: i
 
@@ -136,9 +136,9 @@ contains
       allocate (words(1))
       words(1) = entry%value
     end if
-    factor = law%formula%period
+    period = law%formula%period
     call evaluate(words, none, system, diagnostics, found, fine, law%formula)
-    law%formula%period = factor
+    law%formula%period = period
     if (.not. fine) return
     if (any(found%dimension /= merge(dimension_length, dimension_angle, by_length))) then
       call add_error(diagnostics, entry%value, "the position of this drive is "// &
