@@ -181,6 +181,9 @@ module linkages
     integer :: pin = 0               !! the same
     real(wp) :: place(2) = 0.0_wp    !! of that pin, from the first one, in the axes of the body [m]
     integer :: number = 0            !! of the slider, turn or drive
+    type(coordinate_t) :: coordinate !! that it holds. The terminals of an angle have directions
+                                     !! that agree where it is fulfilled; the first one of a drive
+                                     !! is still to be turned by what this gives
   end type equation_t
 
   !> Pins and bodies that are placed together. Those of `group_dyad` are two bodies that meet in a

@@ -4,8 +4,9 @@ module drawn_cranks
   use group_equations, only: misfit_of
   use kinds, only: wp
   use linkage_paths, only: period_of
-  use linkages, only: demand_drive, gives_angle, equation_t, linkage_t
+  use linkages, only: gives_angle, linkage_t
   use models, only: model_t, report_number, runs_in_time
+  use plan_equations, only: drive_equation
   use pose_types, only: drawn_pose, pose_t
   implicit none (type, external)
   private
@@ -57,7 +58,7 @@ contains
     end if
     ! The drive is off by the coordinate that is sought.
     pose = drawn_pose(linkage, [0.0_wp, 0.0_wp])
-    crank = misfit_of(linkage, equation_t(demand_drive, number=1), pose, 0.0_wp)
+    crank = misfit_of(linkage, drive_equation(linkage, 1), pose, 0.0_wp)
     if (.not. gives_angle(linkage%drives(1))) return
     crank = crank/degree
     nearest = 0
@@ -139,7 +140,7 @@ contains
     misfit = 0.0_wp
     do i = first, size(linkage%drives)
       if (.not. abs(linkage%drives(i)%ratio) > 0.0_wp) cycle
-      one = abs(misfit_of(linkage, equation_t(demand_drive, number=i), drawn, crank))
+      one = abs(misfit_of(linkage, drive_equation(linkage, i), drawn, crank))
       if (.not. gives_angle(linkage%drives(i))) one = one/maxval(linkage%bodies%length)
       misfit = misfit + one
     end do

@@ -12,16 +12,13 @@ module coordinate_types
   implicit none (type, external)
   private
 
-  public :: terminal_t, frame_t, twist_t, wrench_t, coordinate_t, gradient_t, most_terms
+  public :: terminal_t, frame_t, twist_t, wrench_t, coordinate_t, partial_t, gradients_t
   public :: is_distance, is_along, is_across, is_angle, is_sum
 
   !> Kinds: the distance of two places; the place of the second terminal along and across the line
   !! of the first; the angle from the direction of the first to that of the second; a sum of other
   !! coordinates.
   integer, parameter :: is_distance = 1, is_along = 2, is_across = 3, is_angle = 4, is_sum = 5
-
-  !> A sum has no more terms.
-  integer, parameter :: most_terms = 6
 
   !> A frame on a pin, a body or the ground. Only lines and angles use its direction.
   type :: terminal_t
@@ -60,14 +57,20 @@ module coordinate_types
     real(wp), allocatable :: weight(:) !! (terms) of a sum
   end type coordinate_t
 
-  !> Derivatives of a coordinate by the positions of pins and the angles of bodies: one entry for
-  !! each terminal that is not on the ground. That of a body has its first pin and its angle.
-  type :: gradient_t
-    integer :: terminals = 0
-    integer :: pin(2*most_terms)  !! first one of the body, or a pin by itself; 0 of an angle
-    integer :: body(2*most_terms) !! 0: a pin by itself
-    real(wp) :: by_pin(2, 2*most_terms) !! (2, terminals) [-]
-    real(wp) :: by_angle(2*most_terms)  !! (terminals) [m], or [-] of angles; 0 of a pin
-  end type gradient_t
+  !> Derivatives of a coordinate by what moves one of its terminals: the position of a pin, or of
+  !! the first pin of a body, and the angle of the body.
+  type :: partial_t
+    integer :: pin        !! number; 0 of an angle
+    integer :: body       !! 0: a pin by itself
+    real(wp) :: by_pin(2) !! [-]
+    real(wp) :: by_angle  !! [m], or [-] of angles; 0 of a pin
+  end type partial_t
+
+  !> Gradients of a list of coordinates, one after the other: terminals on the ground have no part
+  !! in them.
+  type :: gradients_t
+    integer, allocatable :: last(:) !! (0:coordinates) number of the last partial of each
+    type(partial_t), allocatable :: partial(:)
+  end type gradients_t
 
 end module coordinate_types

@@ -5,8 +5,8 @@
 !! derivatives with respect to the coordinate of the first drive: s' and s''.
 module coordinates
   use constants, only: degree
-  use coordinate_types, only: coordinate_t, frame_t, gradient_t, is_across, is_along, is_angle, &
-    is_distance, is_sum, terminal_t, twist_t, wrench_t
+  use coordinate_types, only: coordinate_t, frame_t, is_across, is_along, is_angle, is_distance, &
+    is_sum, partial_t, terminal_t, twist_t, wrench_t
   use distances, only: distance_acceleration, find_distance
   use drive_values, only: drive_value
   use kinds, only: wp
@@ -18,8 +18,8 @@ module coordinates
   private
 
   public :: evaluated_t, evaluate, evaluated_rate
-  public :: coordinate_value, coordinate_rate, coordinate_acceleration, add_gradient, &
-    slider_coordinate, is_turning
+  public :: coordinate_value, coordinate_rate, coordinate_acceleration, terminal_count, &
+    add_partials, slider_coordinate, is_turning
 
   !> A coordinate at a pose, found once for all that is asked of it there.
   type :: evaluated_t
@@ -188,43 +188,57 @@ contains
     end select
   end function coordinate_acceleration
 
-  !> Adds its derivatives, times a weight, to those of others.
-  pure recursive subroutine add_gradient(linkage, pose, coordinate, weight, gradient)
-    type(linkage_t), intent(in) :: linkage        !! as for `evaluate`
+  !> Number of its terminals.
+  pure function terminal_count(coordinate) result(number)
+    type(coordinate_t), intent(in) :: coordinate
+    integer :: number
+
+    number = 2
+    if (coordinate%kind == is_sum) number = 2*size(coordinate%term)
+  end function terminal_count
+
+  !> Appends its derivatives, times a weight, to those of others.
+  pure recursive subroutine add_partials(linkage, pose, coordinate, evaluated, weight, partials, &
+    filled)
+    type(linkage_t), intent(in) :: linkage     !! as for `evaluate`
     type(pose_t), intent(in) :: pose
     type(coordinate_t), intent(in) :: coordinate
-    real(wp), intent(in) :: weight                !! 1 of itself
-    type(gradient_t), intent(inout) :: gradient   !! has room: a sum has `most_terms`
+    type(evaluated_t), intent(in) :: evaluated !! of it, at this pose
+    real(wp), intent(in) :: weight             !! 1 of itself
+    type(partial_t), intent(inout) :: partials(:) !! has room for one of each terminal
+    integer, intent(inout) :: filled           !! how many of them are there
 
-    type(evaluated_t) :: it
-    integer :: i, n
+    type(evaluated_t) :: term
+    integer :: i
 
     if (coordinate%kind == is_sum) then
       do i = 1, size(coordinate%term)
-        call add_gradient(linkage, pose, linkage%coordinates(coordinate%term(i)), &
-          weight*coordinate%weight(i), gradient)
+        associate (it => linkage%coordinates(coordinate%term(i)))
+          call evaluate(linkage, pose, it, term, as_placed=.true.)
+          call add_partials(linkage, pose, it, term, weight*coordinate%weight(i), partials, filled)
+        end associate
       end do
       return
     end if
-    call evaluate(linkage, pose, coordinate, it, as_placed=.true.)
     do i = 1, 2
-      associate (at => coordinate%at(i), wrench => it%wrench(i))
+      associate (at => coordinate%at(i), wrench => evaluated%wrench(i))
         if (at%body == 0 .and. at%pin == 0) cycle
-        n = gradient%terminals + 1
-        gradient%terminals = n
-        gradient%body(n) = at%body
-        gradient%pin(n) = at%pin
-        gradient%by_pin(:, n) = weight*wrench%force
-        gradient%by_angle(n) = 0.0_wp
-        if (at%body == 0) cycle
-        gradient%by_angle(n) = weight*wrench%couple
-        if (coordinate%kind == is_angle) cycle
-        gradient%pin(n) = linkage%bodies(at%body)%first_pin
-        gradient%by_angle(n) = gradient%by_angle(n) + weight*cross(turned(at%place, &
-          pose%direction(:, at%body)), wrench%force)
+        filled = filled + 1
+        associate (partial => partials(filled))
+          partial%body = at%body
+          partial%pin = at%pin
+          partial%by_pin = weight*wrench%force
+          partial%by_angle = 0.0_wp
+          if (at%body == 0) cycle
+          partial%by_angle = weight*wrench%couple
+          if (coordinate%kind == is_angle) cycle
+          partial%pin = linkage%bodies(at%body)%first_pin
+          partial%by_angle = partial%by_angle + weight*cross(turned(at%place, pose%direction(:, &
+            at%body)), wrench%force)
+        end associate
       end associate
     end do
-  end subroutine add_gradient
+  end subroutine add_partials
 
   !> Whether it is an angle, not a length.
   pure function is_turning(linkage, coordinate) result(is)

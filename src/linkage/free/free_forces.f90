@@ -3,17 +3,16 @@
 module free_forces
   use applied_loads, only: generalised_force
   use body_points, only: find_point_coefficients, point_coefficients_t
-  use coordinate_types, only: gradient_t
+  use coordinate_types, only: gradients_t, partial_t
   use dense_factor, only: dense_factor_t, factorize, solve, solve_transposed
   use drive_values, only: drive_rate
-  use group_equations, only: find_gradient
+  use group_equations, only: find_gradients
   use inertia_loads, only: load_t
   use joint_forces, only: add_force, joint_forces_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: cross, demand_angle, demand_drive, demand_length, demand_line, &
     demand_turn, drive_of_length, equation_t, linkage_t
-  use plan_equations, only: drive_equation
   use pose_types, only: pose_t
   use rigid_bodies, only: central_inertia, mass_centre, rigid_body_t
   use whole_systems, only: curvatures, demands, drive_row, rate_along, unknown_count, whole_system_t
@@ -31,7 +30,7 @@ module free_forces
 
   !> Equations at a state.
   type :: free_equations_t
-    type(gradient_t), allocatable :: gradient(:)  !! of all equations, of the first drive at last
+    type(gradients_t) :: gradients, first_drive   !! of all equations, of the first drive
     real(wp), allocatable :: gear(:)              !! (equations) share of the first drive's in each
     type(dense_factor_t) :: factor                !! of all gradients above the velocities
     type(dense_factor_t) :: mass                  !! of M, with the inertia on the first drive
@@ -58,7 +57,9 @@ contains
     integer :: b, i, k, l, m, p
 
     m = size(whole%equations)
-    rows = demands(whole, pose)
+    call find_gradients(whole%linkage, pose, whole%equations, equations%gradients)
+    call find_gradients(whole%linkage, pose, whole%drives(:1), equations%first_drive)
+    rows = demands(whole, pose, equations%gradients)
     allocate (matrix(m + size(per), unknown_count(whole)))
     matrix(:m, :) = rows
     do k = 1, size(per)
@@ -66,15 +67,12 @@ contains
       matrix(m + k, :) = row/norm2(row)
     end do
     call factorize(matrix, equations%factor)
-    allocate (equations%gradient(m + 1), equations%gear(m), equations%inertia(size(per)), &
-      equations%driven(size(per)))
+    allocate (equations%gear(m), equations%inertia(size(per)), equations%driven(size(per)))
     do i = 1, m
-      call find_gradient(whole%linkage, whole%equations(i), pose, equations%gradient(i))
       equations%gear(i) = 0.0_wp
       if (whole%equations(i)%kind == demand_drive) equations%gear(i) = drive_rate(whole%linkage, &
         whole%equations(i)%number)
     end do
-    call find_gradient(whole%linkage, drive_equation(1), pose, equations%gradient(m + 1))
     do k = 1, size(per)
       equations%driven(k) = rate_along(whole, drive_row(whole, pose, 1), per(k)%turn, per(k)%pin)
       associate (loads => equations%inertia(k))
@@ -263,10 +261,13 @@ contains
       joints%couple = 0.0_wp
       joints%drive = 0.0_wp
       do i = 1, m
-        call put_equation(linkage, whole%equations(i), equations%gradient(i), lambda(i), joints)
+        associate (gradients => equations%gradients)
+          call put_equation(linkage, whole%equations(i), gradients%partial(gradients%last(i - 1) + &
+            1:gradients%last(i)), lambda(i), joints)
+        end associate
       end do
-      call put_equation(linkage, drive_equation(1), equations%gradient(m + 1), lambda(m + 1), &
-        joints)
+      call put_equation(linkage, whole%drives(1), equations%first_drive%partial( &
+        :equations%first_drive%last(1)), lambda(m + 1), joints)
       joints%torque = joints%drive(1)
     end associate
   end subroutine forces_of_motion
@@ -284,24 +285,24 @@ contains
   end subroutine load_unknowns
 
   !> Puts the force that an equation stands for into the joints, as `find_joint_forces` does.
-  pure subroutine put_equation(linkage, equation, gradient, lambda, joints)
+  pure subroutine put_equation(linkage, equation, partial, lambda, joints)
     type(linkage_t), intent(in) :: linkage
     type(equation_t), intent(in) :: equation
-    type(gradient_t), intent(in) :: gradient
+    type(partial_t), intent(in) :: partial(:) !! its gradient
     real(wp), intent(in) :: lambda
     type(joint_forces_t), intent(inout) :: joints
 
     integer :: k
 
-    do k = 1, gradient%terminals
-      associate (body => gradient%body(k))
-        if (body > 0 .and. gradient%pin(k) > 0) joints%on_first(:, body) = joints%on_first(:, &
-          body) - lambda*gradient%by_pin(:, k)
+    do k = 1, size(partial)
+      associate (body => partial(k)%body)
+        if (body > 0 .and. partial(k)%pin > 0) joints%on_first(:, body) = joints%on_first(:, &
+          body) - lambda*partial(k)%by_pin
       end associate
     end do
     select case (equation%kind)
     case (demand_length, demand_angle)
-      call add_force(linkage, equation%body, equation%pin, -lambda*gradient%by_pin(:, 2), joints)
+      call add_force(linkage, equation%body, equation%pin, -lambda*partial(2)%by_pin, joints)
     case (demand_line)
       joints%guide(equation%number) = lambda
     case (demand_turn)
@@ -309,8 +310,7 @@ contains
     case (demand_drive)
       joints%drive(equation%number) = lambda
       if (linkage%drives(equation%number)%kind == drive_of_length) call add_force(linkage, &
-        linkage%drives(equation%number)%body, gradient%pin(2), -lambda*gradient%by_pin(:, 2), &
-        joints)
+        linkage%drives(equation%number)%body, partial(2)%pin, -lambda*partial(2)%by_pin, joints)
     end select
   end subroutine put_equation
 

@@ -13,16 +13,15 @@
 !! from a pose near by.
 module whole_systems
   use constants, only: degree
-  use coordinate_types, only: gradient_t
+  use coordinate_types, only: gradients_t
+  use coordinates, only: coordinate_acceleration
   use drive_values, only: drive_rate
-  use group_equations, only: curvature_of, farthest_arm, find_gradient, misfit_of
+  use group_equations, only: farthest_arm, find_gradients, misfit_of
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: demand_angle, demand_drive, demand_length, gives_angle, equation_t, &
-    linkage_t, normal_to
-  use plan_equations, only: append_equation, drive_equation, length_drive, line_equation, &
-    pin_equation, turn_equation
-  use pose_types, only: pins_of_body, pose_t
+  use linkages, only: demand_drive, gives_angle, equation_t, linkage_t, normal_to
+  use plan_equations, only: append_equation, drive_equation, list_joint_equations
+  use pose_types, only: pose_t
   implicit none (type, external)
   private
 
@@ -35,6 +34,7 @@ module whole_systems
     integer, allocatable :: at_body(:)            !! (bodies) number of its unknown
     real(wp), allocatable :: scale(:)             !! (bodies) length of its largest arm [m]
     type(equation_t), allocatable :: equations(:) !! with those that are redundant
+    type(equation_t), allocatable :: drives(:)    !! of all drives, free ones too
   end type whole_system_t
 
 contains
@@ -45,36 +45,24 @@ contains
     integer, intent(in) :: free(:)         !! numbers of the drives that are free
     type(whole_system_t) :: system
 
-    integer, allocatable :: pins(:)
-    integer :: i, k, unknowns
+    integer :: i, unknowns
 
     system%linkage = linkage
     allocate (system%at_pin(size(linkage%is_ground)), system%at_body(size(linkage%bodies)), &
-      system%scale(size(linkage%bodies)), system%equations(0))
+      system%scale(size(linkage%bodies)), system%drives(size(linkage%drives)))
     unknowns = 0
     do i = 1, size(linkage%is_ground)
       system%at_pin(i) = merge(-1, unknowns, linkage%is_ground(i))
       if (.not. linkage%is_ground(i)) unknowns = unknowns + 2
     end do
     do i = 1, size(linkage%bodies)
-      unknowns = unknowns + 1
-      system%at_body(i) = unknowns
+      system%at_body(i) = unknowns + i
       system%scale(i) = farthest_arm(linkage%bodies(i))
-      pins = pins_of_body(linkage%bodies(i))
-      do k = 2, size(pins)
-        if (k > 2 .or. length_drive(linkage, i) == 0) call append_equation(system%equations, &
-          pin_equation(linkage, demand_length, i, pins(k)))
-        call append_equation(system%equations, pin_equation(linkage, demand_angle, i, pins(k)))
-      end do
     end do
-    do i = 1, size(linkage%sliders)
-      call append_equation(system%equations, line_equation(i))
-    end do
-    do i = 1, size(linkage%turns)
-      call append_equation(system%equations, turn_equation(i))
-    end do
+    call list_joint_equations(linkage, system%equations)
     do i = 1, size(linkage%drives)
-      if (.not. any(free == i)) call append_equation(system%equations, drive_equation(i))
+      system%drives(i) = drive_equation(linkage, i)
+      if (.not. any(free == i)) call append_equation(system%equations, system%drives(i))
     end do
   end function new_whole_system
 
@@ -112,19 +100,28 @@ contains
   end function displaced
 
   !> Gradients of all equations by the unknowns.
-  pure function demands(system, pose) result(rows)
+  pure function demands(system, pose, gradients) result(rows)
     type(whole_system_t), intent(in) :: system !! its equations
     type(pose_t), intent(in) :: pose           !! pins and directions
+    type(gradients_t), intent(in), optional :: gradients !! of them, where they are known
     real(wp), allocatable :: rows(:, :)        !! (equations, unknowns) [-], or [1/m] of angles
 
+    type(gradients_t) :: own
+    real(wp), allocatable :: first(:)
     real(wp) :: rate
     integer :: i
 
-    allocate (rows(size(system%equations), unknown_count(system)))
+    if (present(gradients)) then
+      rows = rows_of(system, gradients)
+    else
+      call find_gradients(system%linkage, pose, system%equations, own)
+      rows = rows_of(system, own)
+    end if
     do i = 1, size(system%equations)
-      call set_row(system, system%equations(i), pose, rows(i, :))
       rate = rate_by_gears(system, system%equations(i))
-      if (abs(rate) > 0.0_wp) rows(i, :) = rows(i, :) - rate*drive_row(system, pose, 1)
+      if (.not. abs(rate) > 0.0_wp) cycle
+      if (.not. allocated(first)) first = drive_row(system, pose, 1)
+      rows(i, :) = rows(i, :) - rate*first
     end do
   end function demands
 
@@ -146,8 +143,12 @@ contains
     integer, intent(in) :: drive               !! number, from 1
     real(wp), allocatable :: row(:)            !! (unknowns)
 
-    allocate (row(unknown_count(system)))
-    call set_row(system, drive_equation(drive), pose, row)
+    type(gradients_t) :: gradients
+    real(wp), allocatable :: rows(:, :)
+
+    call find_gradients(system%linkage, pose, system%drives(drive:drive), gradients)
+    rows = rows_of(system, gradients)
+    row = rows(1, :)
   end function drive_row
 
   !> A row of the unknowns times velocities of pins and bodies.
@@ -168,28 +169,30 @@ contains
     end do
   end function rate_along
 
-  !> Gradient of one equation by the unknowns.
-  pure subroutine set_row(system, equation, pose, row)
+  !> Gradients by the unknowns.
+  pure function rows_of(system, gradients) result(rows)
     type(whole_system_t), intent(in) :: system
-    type(equation_t), intent(in) :: equation
-    type(pose_t), intent(in) :: pose
-    real(wp), intent(out) :: row(:)
+    type(gradients_t), intent(in) :: gradients
+    real(wp), allocatable :: rows(:, :) !! (equations, unknowns)
 
-    type(gradient_t) :: gradient
-    integer :: k, at
+    integer :: i, k, at
 
-    row = 0.0_wp
-    call find_gradient(system%linkage, equation, pose, gradient)
-    do k = 1, gradient%terminals
-      if (gradient%pin(k) > 0) then
-        at = system%at_pin(gradient%pin(k))
-        if (at >= 0) row(at + 1:at + 2) = row(at + 1:at + 2) + gradient%by_pin(:, k)
-      end if
-      if (gradient%body(k) == 0) cycle
-      at = system%at_body(gradient%body(k))
-      row(at) = row(at) + gradient%by_angle(k)/system%scale(gradient%body(k))
+    allocate (rows(ubound(gradients%last, 1), unknown_count(system)))
+    rows = 0.0_wp
+    do i = 1, size(rows, 1)
+      do k = gradients%last(i - 1) + 1, gradients%last(i)
+        associate (partial => gradients%partial(k))
+          if (partial%pin > 0) then
+            at = system%at_pin(partial%pin)
+            if (at >= 0) rows(i, at + 1:at + 2) = rows(i, at + 1:at + 2) + partial%by_pin
+          end if
+          if (partial%body == 0) cycle
+          at = system%at_body(partial%body)
+          rows(i, at) = rows(i, at) + partial%by_angle/system%scale(partial%body)
+        end associate
+      end do
     end do
-  end subroutine set_row
+  end function rows_of
 
   !> By how much the equations are not fulfilled.
   pure function misfits(system, pose, crank) result(misfit)
@@ -219,12 +222,23 @@ contains
     integer :: i
 
     do i = 1, size(curvature)
-      curvature(i) = curvature_of(system%linkage, system%equations(i), pose, motion)
+      curvature(i) = curvature_of(system, pose, motion, system%equations(i))
       rate = rate_by_gears(system, system%equations(i))
-      if (abs(rate) > 0.0_wp) curvature(i) = curvature(i) - rate*curvature_of(system%linkage, &
-        drive_equation(1), pose, motion)
+      if (abs(rate) > 0.0_wp) curvature(i) = curvature(i) - rate*curvature_of(system, pose, &
+        motion, system%drives(1))
     end do
   end function curvatures
+
+  pure function curvature_of(system, pose, motion, equation) result(curvature)
+    type(whole_system_t), intent(in) :: system
+    type(pose_t), intent(in) :: pose
+    type(kinematic_coefficients_t), intent(in) :: motion
+    type(equation_t), intent(in) :: equation
+    real(wp) :: curvature
+
+    curvature = coordinate_acceleration(system%linkage, pose, motion, equation%coordinate, &
+      of_rates_alone=.true.)
+  end function curvature_of
 
   !> Acceleration of the coordinate of a drive [rad/s²] or [m/s²].
   pure function drive_acceleration(system, pose, drive, motion) result(acceleration)
@@ -235,7 +249,7 @@ contains
     real(wp) :: acceleration
 
     acceleration = rate_along(system, drive_row(system, pose, drive), motion%turn_slope, &
-      motion%pin_slope) + curvature_of(system%linkage, drive_equation(drive), pose, motion)
+      motion%pin_slope) + curvature_of(system, pose, motion, system%drives(drive))
   end function drive_acceleration
 
   !> Coordinate of a drive at a pose: the one within half a turn of a value near by [deg] or [m].
@@ -248,7 +262,7 @@ contains
 
     ! The drive's misfit is what its coordinate is above its phase.
     associate (it => system%linkage%drives(drive))
-      position = misfit_of(system%linkage, drive_equation(drive), pose, 0.0_wp)
+      position = misfit_of(system%linkage, system%drives(drive), pose, 0.0_wp)
       if (gives_angle(it)) position = position/degree
       position = position + it%phase
       if (gives_angle(it)) position = position + 360.0_wp*anint((near - &

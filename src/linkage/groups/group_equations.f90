@@ -2,12 +2,12 @@
 ! In: a planned `linkage_t`, the coordinate of its first drive. Out: a `pose_t`, its
 ! `kinematic_coefficients_t`. Begin with `find_pose` in `poses.f90` and
 ! `find_kinematic_coefficients` in `kinematic_coefficients.f90`. The constraint equations are here,
-! with gradients and curvatures.
+! with their gradients.
 ! Not here: the order of the groups (`src/linkage/plan`), ways through change points
 ! (`src/linkage/limits`).
 
-!> What pins of bodies, sliders, turns and drives demand of the pose: misfits, gradients, and second
-!! derivatives along the motion.
+!> What pins of bodies, sliders, turns and drives demand of the pose: misfits and gradients. Second
+!! derivatives along the motion are those of the coordinates that they hold.
 !!
 !! The unknowns of a group are the positions of its pins and the angles of its bodies. With u from
 !! the first pin of a body to another one, and n the normal of the unit vector there, which turns
@@ -17,89 +17,48 @@
 !! velocities and accelerations, and, transposed, the forces.
 module group_equations
   use constants, only: degree
-  use coordinate_types, only: coordinate_t, gradient_t, is_across, is_angle, is_distance, is_sum
-  use coordinates, only: add_gradient, coordinate_acceleration, evaluate, evaluated_t, &
-    slider_coordinate
+  use coordinate_types, only: coordinate_t, gradients_t, is_angle
+  use coordinates, only: add_partials, evaluate, evaluated_t, terminal_count
   use drive_values, only: direction_at, drive_value
   use kinds, only: wp
-  use linkages, only: body_t, cross, demand_angle, demand_drive, demand_length, demand_line, &
-    demand_turn, drive_of_angle, drive_of_coordinate, drive_of_length, drive_of_slider, &
-    equation_t, gives_angle, group_t, linkage_t, turned
-  use pose_types, only: kinematic_coefficients_t, pose_t
+  use linkages, only: body_t, cross, demand_drive, demand_length, equation_t, gives_angle, &
+    group_t, linkage_t, turned
+  use pose_types, only: pose_t
   implicit none (type, external)
   private
 
-  public :: held_coordinate, find_gradient, misfit_of, curvature_of, unknowns_of, world_line, &
-    line_axis, line_offset, farthest_arm
+  public :: find_gradients, misfit_of, unknowns_of, world_line, line_axis, line_offset, farthest_arm
 
 contains
 
-  !> The coordinate that an equation holds. The terminals of an angle have directions that agree
-  !! where it is fulfilled; the first one of a drive is still to be turned by what this gives.
-  pure function held_coordinate(linkage, equation) result(coordinate)
-    type(linkage_t), intent(in) :: linkage   !! bodies, sliders, turns and drives
-    type(equation_t), intent(in) :: equation !! one of its equations
-    type(coordinate_t) :: coordinate
+  !> Gradients of equations at a pose, and by how much these are not fulfilled.
+  pure subroutine find_gradients(linkage, pose, equations, gradients, crank, misfits)
+    type(linkage_t), intent(in) :: linkage          !! bodies and drives
+    type(pose_t), intent(in) :: pose                !! pins and directions
+    type(equation_t), intent(in) :: equations(:)    !! of this linkage
+    type(gradients_t), intent(out) :: gradients     !! of their misfits
+    real(wp), intent(in), optional :: crank         !! as of `misfit_of`
+    real(wp), intent(out), optional :: misfits(:)   !! (equations) [m], or [rad] between angles
 
-    select case (equation%kind)
-    case (demand_length)
-      coordinate%kind = is_distance
-      coordinate%at(1)%body = equation%body
-      coordinate%at(2)%pin = equation%pin
-    case (demand_angle)
-      coordinate%kind = is_across
-      coordinate%at(1)%body = equation%body
-      coordinate%at(1)%direction = equation%place/norm2(equation%place)
-      coordinate%at(2)%pin = equation%pin
-    case (demand_line)
-      coordinate = slider_coordinate(linkage, equation%number)
-      coordinate%kind = is_across
-    case (demand_turn)
-      coordinate%kind = is_angle
-      associate (turn => linkage%turns(equation%number))
-        coordinate%at(1)%body = turn%against
-        coordinate%at(1)%direction = turn%relative
-        coordinate%at(2)%body = turn%body
+    type(evaluated_t) :: evaluated
+    integer :: i, filled
+
+    filled = 0
+    do i = 1, size(equations)
+      filled = filled + terminal_count(equations(i)%coordinate)
+    end do
+    allocate (gradients%last(0:size(equations)), gradients%partial(filled))
+    filled = 0
+    gradients%last(0) = 0
+    do i = 1, size(equations)
+      associate (coordinate => equations(i)%coordinate)
+        call evaluate(linkage, pose, coordinate, evaluated, as_placed=.true.)
+        call add_partials(linkage, pose, coordinate, evaluated, 1.0_wp, gradients%partial, filled)
       end associate
-    case (demand_drive)
-      coordinate = driven_coordinate(linkage, equation%number)
-    end select
-  end function held_coordinate
-
-  !> The coordinate of a drive.
-  pure function driven_coordinate(linkage, number) result(coordinate)
-    type(linkage_t), intent(in) :: linkage !! bodies, sliders and drives
-    integer, intent(in) :: number          !! of the drive, from 1
-    type(coordinate_t) :: coordinate
-
-    associate (drive => linkage%drives(number))
-      select case (drive%kind)
-      case (drive_of_angle)
-        coordinate%kind = is_angle
-        coordinate%at%body = [drive%against, drive%body]
-        if (drive%against > 0) coordinate%at(1)%direction = linkage%bodies(drive%against)%heading
-        coordinate%at(2)%direction = linkage%bodies(drive%body)%heading
-      case (drive_of_slider)
-        coordinate = slider_coordinate(linkage, drive%slider)
-      case (drive_of_length)
-        coordinate%kind = is_distance
-        coordinate%at(1)%body = drive%body
-        coordinate%at(2)%pin = linkage%bodies(drive%body)%last_pin
-      case (drive_of_coordinate)
-        coordinate = linkage%coordinates(drive%coordinate)
-      end select
-    end associate
-  end function driven_coordinate
-
-  !> Gradient of an equation at a pose.
-  pure subroutine find_gradient(linkage, equation, pose, gradient)
-    type(linkage_t), intent(in) :: linkage        !! bodies, sliders, turns and drives
-    type(equation_t), intent(in) :: equation      !! one of its equations
-    type(pose_t), intent(in) :: pose              !! pins and directions
-    type(gradient_t), intent(out) :: gradient     !! of its misfit
-
-    call add_gradient(linkage, pose, held_coordinate(linkage, equation), 1.0_wp, gradient)
-  end subroutine find_gradient
+      gradients%last(i) = filled
+      if (present(misfits)) misfits(i) = misfit_at(linkage, equations(i), pose, crank, evaluated)
+    end do
+  end subroutine find_gradients
 
   !> By how much an equation is not fulfilled [m], or [rad] between angles.
   pure function misfit_of(linkage, equation, pose, crank) result(misfit)
@@ -109,42 +68,46 @@ contains
     real(wp), intent(in) :: crank            !! coordinate of the first drive [deg] or [m]
     real(wp) :: misfit
 
-    type(coordinate_t) :: coordinate
     type(evaluated_t) :: evaluated
-    real(wp) :: target
-    logical :: is_turning
 
-    coordinate = held_coordinate(linkage, equation)
-    target = 0.0_wp
-    if (equation%kind == demand_length) target = norm2(equation%place)
-    if (equation%kind == demand_drive) then
-      target = drive_value(linkage, equation%number, crank)
-      if (coordinate%kind == is_angle) then
-        coordinate%at(1)%direction = turned(coordinate%at(1)%direction, direction_at(target))
-        target = 0.0_wp
-      end if
-    end if
-    call evaluate(linkage, pose, coordinate, evaluated, as_placed=.true.)
-    ! A sum of angles.
-    is_turning = coordinate%kind == is_sum .and. equation%kind == demand_drive
-    if (is_turning) is_turning = gives_angle(linkage%drives(equation%number))
-    if (is_turning) target = target*degree
-    misfit = evaluated%value - target
-    if (is_turning) misfit = atan2(sin(misfit), cos(misfit))
+    call evaluate(linkage, pose, equation%coordinate, evaluated, as_placed=.true.)
+    misfit = misfit_at(linkage, equation, pose, crank, evaluated)
   end function misfit_of
 
-  !> Second derivative of an equation along the motion without second derivatives of the unknowns:
-  !! q'ᵀ ∇²C q' [m per crank²].
-  pure function curvature_of(linkage, equation, pose, motion) result(curvature)
-    type(linkage_t), intent(in) :: linkage   !! bodies, sliders, turns and drives
-    type(equation_t), intent(in) :: equation !! one of its equations
-    type(pose_t), intent(in) :: pose         !! pins and directions
-    type(kinematic_coefficients_t), intent(in) :: motion !! q'
-    real(wp) :: curvature
+  !> The same where its coordinate is evaluated already.
+  pure function misfit_at(linkage, equation, pose, crank, evaluated) result(misfit)
+    type(linkage_t), intent(in) :: linkage
+    type(equation_t), intent(in) :: equation
+    type(pose_t), intent(in) :: pose
+    real(wp), intent(in) :: crank
+    type(evaluated_t), intent(in) :: evaluated
+    real(wp) :: misfit
 
-    curvature = coordinate_acceleration(linkage, pose, motion, held_coordinate(linkage, equation), &
-      of_rates_alone=.true.)
-  end function curvature_of
+    type(coordinate_t) :: coordinate
+    type(evaluated_t) :: turned_back
+    real(wp) :: target
+
+    select case (equation%kind)
+    case (demand_length)
+      misfit = evaluated%value - norm2(equation%place)
+    case (demand_drive)
+      target = drive_value(linkage, equation%number, crank)
+      if (equation%coordinate%kind == is_angle) then
+        ! Whole turns are nothing, and lose no digit.
+        coordinate = equation%coordinate
+        coordinate%at(1)%direction = turned(coordinate%at(1)%direction, direction_at(target))
+        call evaluate(linkage, pose, coordinate, turned_back, as_placed=.true.)
+        misfit = turned_back%value
+      else if (gives_angle(linkage%drives(equation%number))) then
+        misfit = evaluated%value - target*degree
+        misfit = atan2(sin(misfit), cos(misfit))
+      else
+        misfit = evaluated%value - target
+      end if
+    case default
+      misfit = evaluated%value
+    end select
+  end function misfit_at
 
   !> Direction and a point of the line of a slider.
   pure subroutine world_line(linkage, pose, number, direction, point)

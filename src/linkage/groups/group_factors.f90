@@ -1,9 +1,9 @@
 !> The equations of groups at a pose, factorized once for all right sides: velocities and
 !! accelerations, positions by Newton's method and, with the transpose, forces of every load case.
 module group_factors
-  use coordinate_types, only: gradient_t
+  use coordinate_types, only: gradients_t
   use dense_factor, only: dense_factor_t, factorize
-  use group_equations, only: farthest_arm, find_gradient
+  use group_equations, only: farthest_arm, find_gradients
   use kinds, only: wp
   use linkages, only: group_carried, group_dyad, group_t, linkage_t
   use pose_types, only: pose_t
@@ -13,28 +13,28 @@ module group_factors
   public :: group_factors_t, factorize_group, factorize_groups, group_matrix
 
   type :: group_factors_t
-    type(gradient_t), allocatable :: gradient(:) !! (equations)
-    real(wp), allocatable :: scale(:)            !! (bodies of the group) lengths with which their
-                                                 !! angles are multiplied, so that all unknowns are
-                                                 !! lengths: the farthest of their pins [m]
-    type(dense_factor_t) :: factor               !! of `group_matrix`
+    type(gradients_t) :: gradients    !! of its equations
+    real(wp), allocatable :: scale(:) !! (bodies of the group) lengths with which their angles are
+                                      !! multiplied, so that all unknowns are lengths: the farthest
+                                      !! of their pins [m]
+    type(dense_factor_t) :: factor    !! of `group_matrix`
   end type group_factors_t
 
 contains
 
   !> Those of a group with equations.
-  pure subroutine factorize_group(linkage, group, pose, factors)
+  pure subroutine factorize_group(linkage, group, pose, factors, crank, misfits)
     type(linkage_t), intent(in) :: linkage        !! bodies, sliders, turns and drives
     type(group_t), intent(in) :: group            !! of this linkage
     type(pose_t), intent(in) :: pose              !! pins and directions
     type(group_factors_t), intent(out) :: factors !! of no use if its determinant is 0
+    real(wp), intent(in), optional :: crank       !! as of `misfit_of`
+    real(wp), intent(out), optional :: misfits(:) !! (equations) as of `find_gradients`
 
     integer :: i
 
-    allocate (factors%gradient(size(group%equations)), factors%scale(size(group%bodies)))
-    do i = 1, size(group%equations)
-      call find_gradient(linkage, group%equations(i), pose, factors%gradient(i))
-    end do
+    call find_gradients(linkage, pose, group%equations, factors%gradients, crank, misfits)
+    allocate (factors%scale(size(group%bodies)))
     do i = 1, size(group%bodies)
       factors%scale(i) = farthest_arm(linkage%bodies(group%bodies(i)))
     end do
@@ -76,15 +76,15 @@ contains
     matrix = 0.0_wp
     first_angle = 2*size(group%pins)
     do i = 1, size(group%equations)
-      associate (gradient => factors%gradient(i))
-        do k = 1, gradient%terminals
-          at = findloc(group%pins, gradient%pin(k), dim=1)
-          if (at > 0) matrix(i, 2*at - 1:2*at) = matrix(i, 2*at - 1:2*at) + gradient%by_pin(:, k)
-          at = findloc(group%bodies, gradient%body(k), dim=1)
+      do k = factors%gradients%last(i - 1) + 1, factors%gradients%last(i)
+        associate (partial => factors%gradients%partial(k))
+          at = findloc(group%pins, partial%pin, dim=1)
+          if (at > 0) matrix(i, 2*at - 1:2*at) = matrix(i, 2*at - 1:2*at) + partial%by_pin
+          at = findloc(group%bodies, partial%body, dim=1)
           if (at > 0) matrix(i, first_angle + at) = matrix(i, first_angle + at) + &
-            gradient%by_angle(k)/factors%scale(at)
-        end do
-      end associate
+            partial%by_angle/factors%scale(at)
+        end associate
+      end do
     end do
   end function group_matrix
 

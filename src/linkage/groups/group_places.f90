@@ -5,7 +5,7 @@ module group_places
   use dyad_places, only: limit_slack, place_dyad
   use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
   use drive_values, only: drive_direction, drive_value
-  use group_equations, only: line_axis, line_offset, misfit_of, world_line
+  use group_equations, only: line_axis, line_offset, world_line
   use group_factors, only: factorize_group, group_factors_t
   use kinds, only: wp
   use linkages, only: cross, demand_drive, equation_t, group_t, group_carried, &
@@ -267,9 +267,9 @@ contains
     type(error_t), allocatable, intent(inout) :: error !! why it does not converge
 
     type(group_factors_t) :: factors
-    real(wp) :: misfit(size(group%equations)), &
-      step(size(group%equations)), total(size(group%equations)), size_of_step, last, reach, angle
-    integer :: i, k
+    real(wp), dimension(size(group%equations)) :: misfit, step, total
+    real(wp) :: size_of_step, last, reach, angle
+    integer :: k
 
     sine = 0.0_wp
     largest = 0.0_wp
@@ -277,12 +277,9 @@ contains
     last = huge(last)
     reach = 1.0_wp
     do iterations = 1, most_iterations
-      call factorize_group(linkage, group, pose, factors)
+      call factorize_group(linkage, group, pose, factors, crank, misfit)
       if (.not. abs(factors%factor%determinant) > 0.0_wp) exit
       reach = maxval([maxval(abs(pose%pin)), factors%scale])
-      do i = 1, size(group%equations)
-        misfit(i) = misfit_of(linkage, group%equations(i), pose, crank)
-      end do
       step = -solve(factors%factor, misfit)
       do k = 1, size(group%pins)
         pose%pin(:, group%pins(k)) = pose%pin(:, group%pins(k)) + step(2*k - 1:2*k)

@@ -9,10 +9,10 @@
 !! Of a linkage that runs in time all derivatives are with respect to the time: h is the angular
 !! velocity, h' the angular acceleration of the true motion of all drives, and ω2 = 1, α2 = 0.
 module kinematic_coefficients
-  use coordinate_types, only: gradient_t
+  use coordinate_types, only: partial_t
+  use coordinates, only: coordinate_acceleration
   use dense_factor, only: solve
   use drive_values, only: find_rates_of_drives
-  use group_equations, only: curvature_of
   use group_factors, only: factorize_group, group_factors_t
   use kinds, only: wp
   use linkages, only: demand_drive, group_t, group_carried, group_dyad, linkage_t, normal_to
@@ -168,22 +168,25 @@ contains
     real(wp) :: right(size(group%equations))
     integer :: i
 
-    coefficients%turn(group%bodies) = 0.0_wp
-    coefficients%pin(:, group%pins) = 0.0_wp
-    do i = 1, size(group%equations)
-      right(i) = -along(factors%gradient(i), coefficients%pin, coefficients%turn)
-      if (group%equations(i)%kind == demand_drive) right(i) = right(i) + &
-        rates(group%equations(i)%number)
-    end do
-    call store_derivatives(group, factors%scale, solve(factors%factor, right), coefficients%pin, &
-      coefficients%turn)
-    if (.not. with_slopes) return
-    do i = 1, size(group%equations)
-      right(i) = -along(factors%gradient(i), coefficients%pin_slope, coefficients%turn_slope) - &
-        curvature_of(linkage, group%equations(i), pose, coefficients)
-      if (linkage%runs_in_time .and. group%equations(i)%kind == demand_drive) right(i) = &
-        right(i) + accelerations(group%equations(i)%number)
-    end do
+    associate (equations => group%equations, last => factors%gradients%last, partial => &
+      factors%gradients%partial)
+      coefficients%turn(group%bodies) = 0.0_wp
+      coefficients%pin(:, group%pins) = 0.0_wp
+      do i = 1, size(equations)
+        right(i) = -along(partial(last(i - 1) + 1:last(i)), coefficients%pin, coefficients%turn)
+        if (equations(i)%kind == demand_drive) right(i) = right(i) + rates(equations(i)%number)
+      end do
+      call store_derivatives(group, factors%scale, solve(factors%factor, right), &
+        coefficients%pin, coefficients%turn)
+      if (.not. with_slopes) return
+      do i = 1, size(equations)
+        right(i) = -along(partial(last(i - 1) + 1:last(i)), coefficients%pin_slope, &
+          coefficients%turn_slope) - coordinate_acceleration(linkage, pose, coefficients, &
+          equations(i)%coordinate, of_rates_alone=.true.)
+        if (linkage%runs_in_time .and. equations(i)%kind == demand_drive) right(i) = right(i) + &
+          accelerations(equations(i)%number)
+      end do
+    end associate
     call store_derivatives(group, factors%scale, solve(factors%factor, right), &
       coefficients%pin_slope, coefficients%turn_slope)
   end subroutine move_group
@@ -205,8 +208,8 @@ contains
   end subroutine store_derivatives
 
   !> A gradient times derivatives of pins and angles.
-  pure function along(gradient, pin, turn) result(rate)
-    type(gradient_t), intent(in) :: gradient
+  pure function along(partial, pin, turn) result(rate)
+    type(partial_t), intent(in) :: partial(:)
     real(wp), intent(in) :: pin(:, :)
     real(wp), intent(in) :: turn(:)
     real(wp) :: rate
@@ -214,10 +217,9 @@ contains
     integer :: k
 
     rate = 0.0_wp
-    do k = 1, gradient%terminals
-      if (gradient%pin(k) > 0) rate = rate + dot_product(gradient%by_pin(:, k), pin(:, &
-        gradient%pin(k)))
-      if (gradient%body(k) > 0) rate = rate + gradient%by_angle(k)*turn(gradient%body(k))
+    do k = 1, size(partial)
+      if (partial(k)%pin > 0) rate = rate + dot_product(partial(k)%by_pin, pin(:, partial(k)%pin))
+      if (partial(k)%body > 0) rate = rate + partial(k)%by_angle*turn(partial(k)%body)
     end do
   end function along
 

@@ -9,8 +9,8 @@ module change_points
   use bridges, only: change_of, cross_bridge, thinned
   use group_equations, only: misfit_of
   use kinds, only: wp
-  use linkages, only: bridge_t, cross, demand_line, demand_turn, equation_t, linkage_t
-  use plan_equations, only: length_drive
+  use linkages, only: bridge_t, cross, linkage_t
+  use plan_equations, only: length_drive, line_equation, turn_equation
   use path_steps, only: station_t, step_to, take_step
   use pose_types, only: arm_to_pin, pins_of_body, pose_t
   implicit none (type, external)
@@ -315,11 +315,11 @@ contains
       end do
     end do
     do i = 1, size(linkage%sliders)
-      gap = max(gap, abs(misfit_of(linkage, equation_t(demand_line, number=i), pose, crank)))
+      gap = max(gap, abs(misfit_of(linkage, line_equation(linkage, i), pose, crank)))
     end do
     do i = 1, size(linkage%turns)
       gap = max(gap, linkage%bodies(linkage%turns(i)%body)%length*abs(misfit_of(linkage, &
-        equation_t(demand_turn, number=i), pose, crank)))
+        turn_equation(linkage, i), pose, crank)))
     end do
   end function largest_gap
 

@@ -10,7 +10,7 @@ module assembly_plan
   use body_axes, only: has_pin
   use linkages, only: linkage_t
   use plan_dyads, only: take_meeting
-  use plan_equations, only: append_equation, line_equation, turn_equation
+  use plan_equations, only: append_equation, line_equation, renew_equations, turn_equation
   use plan_iterations, only: take_rest
   use plan_problems, only: check_plain_faults, new_problem, plan_problem_t, problem_drive_idle
   use plan_progress, only: new_progress, progress_t
@@ -43,6 +43,7 @@ contains
     type(undecided_t), intent(out) :: undecided               !! what `choose_assembly` has to find
 
     type(progress_t) :: done
+    integer :: i
 
     allocate (body_order(0), pin_order(0))
     call check_plain_faults(linkage, problem)
@@ -50,6 +51,11 @@ contains
     call plan_groups(linkage, sides, done, problem)
     if (allocated(problem)) return
     call collect_redundancies(linkage, done, problem)
+    call renew_equations(linkage, linkage%redundancies)
+    do i = 1, size(linkage%groups)
+      if (allocated(linkage%groups(i)%equations)) call renew_equations(linkage, &
+        linkage%groups(i)%equations)
+    end do
     undecided = find_undecided(linkage, sides)
     if (.not. allocated(problem)) call check_sides(linkage, sides, undecided, problem)
     body_order = done%order
@@ -209,11 +215,11 @@ contains
     end do
     do i = 1, size(done%turn)
       if (done%turn(i)) cycle
-      call append_equation(linkage%redundancies, turn_equation(i))
+      call append_equation(linkage%redundancies, turn_equation(linkage, i))
     end do
     do i = 1, size(done%slider)
       if (done%slider(i)) cycle
-      call append_equation(linkage%redundancies, line_equation(i))
+      call append_equation(linkage%redundancies, line_equation(linkage, i))
     end do
   end subroutine collect_redundancies
 

@@ -121,8 +121,8 @@ contains
     group%pins = [pin]
     group%slider = lines(:2)
     allocate (group%bodies(0), group%loaded(0), group%equations(2))
-    group%equations(1) = line_equation(lines(1))
-    group%equations(2) = line_equation(lines(2))
+    group%equations(1) = line_equation(linkage, lines(1))
+    group%equations(2) = line_equation(linkage, lines(2))
     done%slider(lines(:2)) = .true.
     done%pin(pin) = .true.
     call append_group(linkage, group)
@@ -149,7 +149,7 @@ contains
     allocate (group%equations(3))
     group%equations(1) = length_equation(linkage, body, pin)
     group%equations(2) = pin_equation(linkage, demand_angle, body, pin)
-    group%equations(3) = line_equation(line)
+    group%equations(3) = line_equation(linkage, line)
     call choose_side(linkage, sides, group)
     done%slider(line) = .true.
     call record_dyad(linkage, group, done)

@@ -1,16 +1,19 @@
 !> The equations of a plan, and which of them its groups have used.
 module plan_equations
-  use linkages, only: demand_drive, demand_length, demand_line, demand_turn, drive_of_length, &
-    equation_t, linkage_t
-  use pose_types, only: place_of_pin
+  use coordinate_types, only: is_across, is_angle
+  use coordinates, only: slider_coordinate
+  use linkages, only: demand_angle, demand_drive, demand_length, demand_line, demand_turn, &
+    drive_of_angle, drive_of_coordinate, drive_of_length, drive_of_slider, equation_t, linkage_t
+  use pose_types, only: pins_of_body, place_of_pin
   implicit none (type, external)
   private
 
   public :: pin_equation, length_equation, line_equation, turn_equation, drive_equation, &
-    append_equation, is_used, length_drive
+    renew_equations, list_joint_equations, append_equation, is_used, length_drive
 
 contains
 
+  !> What a pin of a body demands: its distance from the first one, or its direction from there.
   pure function pin_equation(linkage, kind, body, pin) result(equation)
     type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: kind, body, pin
@@ -20,6 +23,13 @@ contains
     equation%body = body
     equation%pin = pin
     equation%place = place_of_pin(linkage%bodies(body), pin)
+    associate (coordinate => equation%coordinate)
+      coordinate%at(1)%body = body
+      coordinate%at(2)%pin = pin
+      if (kind == demand_length) return
+      coordinate%kind = is_across
+      coordinate%at(1)%direction = equation%place/norm2(equation%place)
+    end associate
   end function pin_equation
 
   !> The distance of a pin of a body from its first one: its own, or that of its drive.
@@ -32,35 +42,109 @@ contains
 
     drive = length_drive(linkage, body)
     if (drive > 0) then
-      equation = drive_equation(drive)
+      equation = drive_equation(linkage, drive)
     else
       equation = pin_equation(linkage, demand_length, body, pin)
     end if
   end function length_equation
 
-  pure function line_equation(slider) result(equation)
+  pure function line_equation(linkage, slider) result(equation)
+    type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: slider
     type(equation_t) :: equation
 
     equation%kind = demand_line
     equation%number = slider
+    equation%coordinate = slider_coordinate(linkage, slider)
+    equation%coordinate%kind = is_across
   end function line_equation
 
-  pure function turn_equation(turn) result(equation)
+  pure function turn_equation(linkage, turn) result(equation)
+    type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: turn
     type(equation_t) :: equation
 
     equation%kind = demand_turn
     equation%number = turn
+    associate (coordinate => equation%coordinate, it => linkage%turns(turn))
+      coordinate%kind = is_angle
+      coordinate%at%body = [it%against, it%body]
+      coordinate%at(1)%direction = it%relative
+    end associate
   end function turn_equation
 
-  pure function drive_equation(drive) result(equation)
+  pure function drive_equation(linkage, drive) result(equation)
+    type(linkage_t), intent(in) :: linkage
     integer, intent(in) :: drive
     type(equation_t) :: equation
 
     equation%kind = demand_drive
     equation%number = drive
+    associate (coordinate => equation%coordinate, it => linkage%drives(drive))
+      select case (it%kind)
+      case (drive_of_angle)
+        coordinate%kind = is_angle
+        coordinate%at%body = [it%against, it%body]
+        if (it%against > 0) coordinate%at(1)%direction = linkage%bodies(it%against)%heading
+        coordinate%at(2)%direction = linkage%bodies(it%body)%heading
+      case (drive_of_slider)
+        coordinate = slider_coordinate(linkage, it%slider)
+      case (drive_of_length)
+        coordinate%at(1)%body = it%body
+        coordinate%at(2)%pin = linkage%bodies(it%body)%last_pin
+      case (drive_of_coordinate)
+        coordinate = linkage%coordinates(it%coordinate)
+      end select
+    end associate
   end function drive_equation
+
+  !> The same equations once bodies are measured from other pins.
+  pure subroutine renew_equations(linkage, equations)
+    type(linkage_t), intent(in) :: linkage
+    type(equation_t), intent(inout) :: equations(:)
+
+    type(equation_t) :: old
+    integer :: i
+
+    do i = 1, size(equations)
+      old = equations(i)
+      select case (old%kind)
+      case (demand_length, demand_angle)
+        equations(i) = pin_equation(linkage, old%kind, old%body, old%pin)
+      case (demand_line)
+        equations(i) = line_equation(linkage, old%number)
+      case (demand_turn)
+        equations(i) = turn_equation(linkage, old%number)
+      case (demand_drive)
+        equations(i) = drive_equation(linkage, old%number)
+      end select
+    end do
+  end subroutine renew_equations
+
+  !> What all bodies, sliders and turns demand; the drives are beside.
+  pure subroutine list_joint_equations(linkage, equations)
+    type(linkage_t), intent(in) :: linkage
+    type(equation_t), allocatable, intent(out) :: equations(:)
+
+    integer, allocatable :: pins(:)
+    integer :: i, k
+
+    allocate (equations(0))
+    do i = 1, size(linkage%bodies)
+      pins = pins_of_body(linkage%bodies(i))
+      do k = 2, size(pins)
+        if (k > 2 .or. length_drive(linkage, i) == 0) call append_equation(equations, &
+          pin_equation(linkage, demand_length, i, pins(k)))
+        call append_equation(equations, pin_equation(linkage, demand_angle, i, pins(k)))
+      end do
+    end do
+    do i = 1, size(linkage%sliders)
+      call append_equation(equations, line_equation(linkage, i))
+    end do
+    do i = 1, size(linkage%turns)
+      call append_equation(equations, turn_equation(linkage, i))
+    end do
+  end subroutine list_joint_equations
 
   pure subroutine append_equation(list, equation)
     type(equation_t), allocatable, intent(inout) :: list(:)

@@ -5,7 +5,7 @@ module plan_iterations
   use body_axes, only: choose_pins, other_pin
   use coordinate_types, only: coordinate_t, is_angle, is_distance, is_sum
   use drawn_places, only: needed_places
-  use group_equations, only: held_coordinate, unknowns_of
+  use group_equations, only: unknowns_of
   use kinds, only: wp
   use linkages, only: demand_angle, demand_drive, demand_length, demand_line, demand_turn, &
     drive_of_nothing, equation_t, group_t, group_by_newton, linkage_t
@@ -190,7 +190,7 @@ contains
 
     allocate (equations(0))
     do i = 1, size(linkage%drives)
-      if (.not. done%drive(i)) call append_equation(equations, drive_equation(i))
+      if (.not. done%drive(i)) call append_equation(equations, drive_equation(linkage, i))
     end do
     do i = 1, size(linkage%bodies)
       if (done%body(i)) cycle
@@ -204,10 +204,10 @@ contains
       end do
     end do
     do i = 1, size(linkage%turns)
-      if (.not. done%turn(i)) call append_equation(equations, turn_equation(i))
+      if (.not. done%turn(i)) call append_equation(equations, turn_equation(linkage, i))
     end do
     do i = 1, size(linkage%sliders)
-      if (.not. done%slider(i)) call append_equation(equations, line_equation(i))
+      if (.not. done%slider(i)) call append_equation(equations, line_equation(linkage, i))
     end do
   end subroutine open_equations
 
@@ -223,7 +223,7 @@ contains
     allocate (has(2*size(pins) + size(bodies), size(equations)))
     has = .false.
     do i = 1, size(equations)
-      call mark_coordinate(linkage, held_coordinate(linkage, equations(i)), pins, bodies, has(:, i))
+      call mark_coordinate(linkage, equations(i)%coordinate, pins, bodies, has(:, i))
     end do
   end subroutine find_dependence
 

@@ -43,7 +43,7 @@ contains
       allocate (group%pins(0), group%equations(1))
       group%bodies = [body]
       group%loaded = [body]
-      group%equations(1) = line_equation(s)
+      group%equations(1) = line_equation(linkage, s)
       ! A block lies between the pins of its link, if nothing else is said.
       group%side = sign(1.0_wp, linkage%sliders(s)%direction(1))
       call choose_side(linkage, sides, group)
@@ -88,9 +88,9 @@ contains
           group%bodies = [body]
           group%loaded = [body]
           allocate (group%equations(3))
-          group%equations(1) = turn_equation(t)
-          group%equations(2) = line_equation(s)
-          group%equations(3) = line_equation(k)
+          group%equations(1) = turn_equation(linkage, t)
+          group%equations(2) = line_equation(linkage, s)
+          group%equations(3) = line_equation(linkage, k)
           done%turn(t) = .true.
           done%slider([s, k]) = .true.
           done%pin(linkage%sliders(s)%pin) = .true.

@@ -41,7 +41,7 @@ contains
       done%pin(linkage%bodies(1)%last_pin) = .true.
       call carry_rest(linkage, crank, [linkage%bodies(1)%last_pin], done)
     else
-      call turn_body(linkage, crank, drive_equation(1), done)
+      call turn_body(linkage, crank, drive_equation(linkage, 1), done)
     end if
   end subroutine take_crank
 
@@ -79,7 +79,7 @@ contains
     if (against > 0) then
       if (.not. done%body(against)) return
     end if
-    call turn_on_known_pin(linkage, body, drive_equation(number), done, has_found)
+    call turn_on_known_pin(linkage, body, drive_equation(linkage, number), done, has_found)
     if (has_found) done%drive(number) = .true.
   end subroutine turn_driven_body
 
@@ -119,8 +119,8 @@ contains
     group%pins = [pin]
     group%slider(1) = slider
     allocate (group%bodies(0), group%loaded(0), group%equations(2))
-    group%equations(1) = drive_equation(number)
-    group%equations(2) = line_equation(slider)
+    group%equations(1) = drive_equation(linkage, number)
+    group%equations(2) = line_equation(linkage, slider)
     done%pin(pin) = .true.
     done%slider(slider) = .true.
     done%drive(number) = .true.
@@ -162,7 +162,7 @@ contains
       if (done%turn(t)) cycle
       body = turned_by(linkage, t, done)
       if (body == 0) cycle
-      call turn_on_known_pin(linkage, body, turn_equation(t), done, has_found)
+      call turn_on_known_pin(linkage, body, turn_equation(linkage, t), done, has_found)
       if (.not. has_found) cycle
       done%turn(t) = .true.
       return

@@ -2,15 +2,14 @@
 !! at every one.
 module singular_drawings
   use constants, only: degree
-  use coordinate_types, only: gradient_t
+  use coordinate_types, only: gradients_t
   use dense_factor, only: dense_factor_t, factorize, solve
-  use group_equations, only: farthest_arm, find_gradient, misfit_of
+  use group_equations, only: farthest_arm, find_gradients
   use kinds, only: wp
-  use linkages, only: demand_angle, demand_length, drive_of_nothing, follows_angle, &
-    equation_t, linkage_t, reference_point, turned
-  use plan_equations, only: append_equation, drive_equation, length_drive, line_equation, &
-    pin_equation, turn_equation
-  use pose_types, only: drawn_pose, pins_of_body, pose_t
+  use linkages, only: drive_of_nothing, follows_angle, equation_t, linkage_t, reference_point, &
+    turned
+  use plan_equations, only: append_equation, drive_equation, list_joint_equations
+  use pose_types, only: drawn_pose, pose_t
   implicit none (type, external)
   private
 
@@ -72,27 +71,12 @@ contains
     type(linkage_t), intent(in) :: linkage
     type(equation_t), allocatable, intent(out) :: equations(:)
 
-    integer, allocatable :: pins(:)
-    integer :: b, k
+    integer :: k
 
-    allocate (equations(0))
-    do b = 1, size(linkage%bodies)
-      pins = pins_of_body(linkage%bodies(b))
-      do k = 2, size(pins)
-        if (k > 2 .or. length_drive(linkage, b) == 0) call append_equation(equations, &
-          pin_equation(linkage, demand_length, b, pins(k)))
-        call append_equation(equations, pin_equation(linkage, demand_angle, b, pins(k)))
-      end do
-    end do
-    do k = 1, size(linkage%turns)
-      call append_equation(equations, turn_equation(k))
-    end do
-    do k = 1, size(linkage%sliders)
-      call append_equation(equations, line_equation(k))
-    end do
+    call list_joint_equations(linkage, equations)
     do k = 1, size(linkage%drives)
       if (linkage%drives(k)%kind /= drive_of_nothing) call append_equation(equations, &
-        drive_equation(k))
+        drive_equation(linkage, k))
     end do
   end subroutine list_equations
 
@@ -154,7 +138,7 @@ contains
     real(wp), allocatable, intent(out) :: misfits(:)
     real(wp), intent(out) :: largest                   !! misfit [m]
 
-    type(gradient_t) :: gradient
+    type(gradients_t) :: gradients
     real(wp) :: row
     integer :: i, k, first_angle
 
@@ -163,17 +147,22 @@ contains
       misfits(size(equations)))
     matrix = 0.0_wp
     largest = 0.0_wp
+    call find_gradients(linkage, pose, equations, gradients, crank, misfits)
     do i = 1, size(equations)
-      misfits(i) = misfit_of(linkage, equations(i), pose, crank)
-      call find_gradient(linkage, equations(i), pose, gradient)
-      do k = 1, gradient%terminals
-        associate (pin => gradient%pin(k), body => gradient%body(k))
-          if (pin > 0) then
-            if (.not. linkage%is_ground(pin)) matrix(i, 2*pin - 1:2*pin) = matrix(i, 2*pin - &
-              1:2*pin) + gradient%by_pin(:, k)
+      do k = gradients%last(i - 1) + 1, gradients%last(i)
+        associate (partial => gradients%partial(k))
+          if (partial%pin > 0) then
+            associate (at => 2*partial%pin)
+              if (.not. linkage%is_ground(partial%pin)) matrix(i, at - 1:at) = matrix(i, &
+                at - 1:at) + partial%by_pin
+            end associate
           end if
-          if (body > 0) matrix(i, first_angle + body) = matrix(i, first_angle + body) + &
-            gradient%by_angle(k)/farthest_arm(linkage%bodies(body))
+          if (partial%body > 0) then
+            associate (at => first_angle + partial%body)
+              matrix(i, at) = matrix(i, at) + partial%by_angle/farthest_arm(linkage%bodies( &
+                partial%body))
+            end associate
+          end if
         end associate
       end do
       row = norm2(matrix(i, :))

@@ -1,8 +1,8 @@
 !> Drives whose forces statics cannot tell apart: a link more than needed joins what they move, and
 !! they can hold it between them with any force.
 module coupled_drives
-  use coordinate_types, only: gradient_t
-  use group_equations, only: find_gradient
+  use coordinate_types, only: gradients_t
+  use group_equations, only: find_gradients
   use group_factors, only: factorize_groups, group_factors_t
   use inertia_loads, only: load_t
   use joint_forces, only: find_joint_forces, joint_forces_t
@@ -27,7 +27,7 @@ contains
     integer, intent(out) :: redundancy     !! its number; 0: there is none
     integer, allocatable, intent(out) :: drives(:) !! numbers of these drives
 
-    type(gradient_t) :: gradient
+    type(gradients_t) :: gradients
     type(joint_forces_t) :: forces
     type(group_factors_t), allocatable :: factors(:)
     type(load_t) :: load(size(linkage%bodies)), no_load
@@ -36,14 +36,15 @@ contains
 
     span = max(maxval(linkage%bodies%length), maxval(abs(pose%pin)))
     call factorize_groups(linkage, pose, factors)
+    call find_gradients(linkage, pose, linkage%redundancies, gradients)
     do redundancy = 1, size(linkage%redundancies)
-      call find_gradient(linkage, linkage%redundancies(redundancy), pose, gradient)
       load = no_load
       pin_load = 0.0_wp
-      do k = 1, gradient%terminals
-        associate (pin => gradient%pin(k), body => gradient%body(k))
-          if (pin > 0) pin_load(:, pin) = pin_load(:, pin) + gradient%by_pin(:, k)
-          if (body > 0) load(body)%moment = load(body)%moment + gradient%by_angle(k)
+      do k = gradients%last(redundancy - 1) + 1, gradients%last(redundancy)
+        associate (partial => gradients%partial(k), pin => gradients%partial(k)%pin, body => &
+          gradients%partial(k)%body)
+          if (pin > 0) pin_load(:, pin) = pin_load(:, pin) + partial%by_pin
+          if (body > 0) load(body)%moment = load(body)%moment + partial%by_angle
         end associate
       end do
       forces = find_joint_forces(linkage, pose, load, pin_load, factors)

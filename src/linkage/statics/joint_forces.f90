@@ -268,11 +268,12 @@ contains
     lambda(2*size(group%pins) + 1:) = -load(group%bodies)%moment/factors%scale
     lambda = solve_transposed(factors%factor, lambda)
     do i = 1, size(group%equations)
-      associate (gradient => factors%gradient(i), number => group%equations(i)%number)
-        do k = 1, gradient%terminals
-          associate (body => gradient%body(k), pin => gradient%pin(k), force => &
-            lambda(i)*gradient%by_pin(:, k))
-            if (body > 0) load(body)%moment = load(body)%moment + lambda(i)*gradient%by_angle(k)
+      associate (partial => factors%gradients%partial, last => factors%gradients%last, number => &
+        group%equations(i)%number)
+        do k = last(i - 1) + 1, last(i)
+          associate (body => partial(k)%body, pin => partial(k)%pin, force => &
+            lambda(i)*partial(k)%by_pin)
+            if (body > 0) load(body)%moment = load(body)%moment + lambda(i)*partial(k)%by_angle
             if (pin == 0) cycle
             if (body > 0) then
               call load_first_pin(linkage, is_passed(body), body, force, carried, load, forces)
@@ -284,7 +285,7 @@ contains
         select case (group%equations(i)%kind)
         case (demand_length, demand_angle)
           call add_force(linkage, group%equations(i)%body, group%equations(i)%pin, &
-            -lambda(i)*gradient%by_pin(:, 2), forces)
+            -lambda(i)*partial(last(i))%by_pin, forces)
         case (demand_line)
           forces%guide(number) = lambda(i)
         case (demand_turn)
@@ -292,7 +293,8 @@ contains
         case (demand_drive)
           forces%drive(number) = lambda(i)
           if (linkage%drives(number)%kind == drive_of_length) call add_force(linkage, &
-            linkage%drives(number)%body, gradient%pin(2), -lambda(i)*gradient%by_pin(:, 2), forces)
+            linkage%drives(number)%body, partial(last(i))%pin, -lambda(i)*partial(last(i))%by_pin, &
+            forces)
         end select
       end associate
     end do

@@ -11,15 +11,12 @@ module drive_checks
   use name_checks, only: kind_of_unknown, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: suggestion
-  use text, only: same_word, string_t, to_string
+  use text, only: same_word, string_t
   use tokens, only: token_t, token_texts
   implicit none (type, external)
   private
 
   public :: check_drives
-
-  !> Most terms of a driven sum: as `most_terms` of `src/linkage/coordinates/coordinate_types.f90`.
-  integer, parameter :: most_terms = 6
 
 contains
 
@@ -135,9 +132,6 @@ contains
     ! Of a card that cannot be read.
     if (drive%measure == 0) return
     associate (measure => model%measures(drive%measure))
-      if (size(measure%terms) > most_terms) call add_error(diagnostics, drive%subject, "'"// &
-        drive%subject%text//"' adds "//to_string(size(measure%terms))//" coordinates; a sum "// &
-        "that is driven has at most "//to_string(most_terms), measure%name, "the sum is here")
       if (drive%kind == drive_measured_angle .and. any(abs(measure%weights - &
         anint(measure%weights)) > 0.0_wp)) call add_error(diagnostics, drive%subject, "the "// &
         "weights of angles in a sum that is driven are whole numbers: others lose turns", &
