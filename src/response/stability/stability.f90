@@ -206,12 +206,21 @@ contains
     end subroutine transfer
 
     !> Numbers the candidates by the frequencies of their shapes in the whole equation, and leaves
-    !! those that are wanted. Of two real multipliers only the one is known there.
+    !! those that are wanted. Of two real multipliers only the one is known there, and nothing of a
+    !! candidate that led to the mode of another one.
     subroutine choose
+      real(wp) :: frequency(size(above_wanted))
       integer, allocatable :: order(:)
+      integer :: i
 
-      order = ascending_order(frequency_of(above_spectrum, above_wanted)*above_modes%frequency/ &
-        above_spectrum%mode(above_wanted)%shape_frequency)
+      frequency = frequency_of(above_spectrum, above_wanted)
+      do i = 1, size(frequency)
+        associate (mode => above_modes(i))
+          if (.not. is_of_another(above_wanted(i), mode%exponent)) frequency(i) = frequency(i)* &
+            mode%frequency/above_spectrum%mode(above_wanted(i))%shape_frequency
+        end associate
+      end do
+      order = ascending_order(frequency)
       call renumber(spectrum, order)
       order = order(:size(mean))
       wanted = wanted(order)
