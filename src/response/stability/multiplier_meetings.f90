@@ -381,7 +381,9 @@ contains
       real(wp) :: length, square, slope, width
       logical :: counts
 
-      meeting%plane = [plane_of(step%left, left), plane_of(step%right, right)]
+      allocate (meeting%plane(2))
+      meeting%plane(1) = plane_of(step%left, left)
+      meeting%plane(2) = plane_of(step%right, right)
       meeting%is_own = left(1) == left(2)
       length = step%right%speed - step%left%speed
       meeting%at = step%left%speed - total(1)/(total(2) - total(1))*length
@@ -518,13 +520,25 @@ contains
       open%least_number = min(open%least_number, maxval(station%number(pair)))
       open%is_wanted = open%least_number <= request%modes
       associate (meeting => open%meeting, growth => 2.0_wp*pi*station%growth(pair(1)))
-        meeting%plane = [meeting%plane, plane_of(station, pair)]
+        call append_plane(station, pair, meeting%plane)
         if (growth <= meeting%growth) return
         meeting%is_own = pair(1) == pair(2)
         meeting%growth = growth
         meeting%at = station%speed
       end associate
     end subroutine go_to
+
+    subroutine append_plane(station, pair, planes)
+      type(station_t), intent(in) :: station
+      integer, intent(in) :: pair(2)
+      type(plane_t), allocatable, intent(inout) :: planes(:)
+
+      type(plane_t) :: plane
+
+      ! In an array constructor the result of a function would not be freed (gfortran 12).
+      plane = plane_of(station, pair)
+      planes = [planes, plane]
+    end subroutine append_plane
 
     !> What becomes of open intervals in a step: some end, others go on, new ones begin.
     subroutine pass(step, open)
@@ -552,7 +566,7 @@ contains
         else if (any(to == 0)) then
           call lose(open(i), step%right%speed)
         else
-          open(i)%meeting%plane = [open(i)%meeting%plane, plane_of(step%right, to)]
+          call append_plane(step%right, to, open(i)%meeting%plane)
           call find_edge(step, open(i)%pair, open(i)%meeting%plane(size(open(i)%meeting% &
             plane) - 1:), open(i)%meeting%to, good)
           if (good .and. open(i)%has_edge) then
@@ -571,7 +585,7 @@ contains
         new%since = step%left%speed
         allocate (new%meeting%plane(0))
         before = [findloc(step%partner, i, dim=1), findloc(step%partner, step%right%met(i), dim=1)]
-        if (all(before > 0)) new%meeting%plane = [plane_of(step%left, before)]
+        if (all(before > 0)) call append_plane(step%left, before, new%meeting%plane)
         call go_to(step%right, [i, step%right%met(i)], new)
         if (all(before > 0)) call find_edge(step, before, new%meeting%plane, new%meeting%from, &
           new%has_edge)
