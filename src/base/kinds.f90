@@ -1,7 +1,7 @@
 ! src/base/ - what any file may use: kinds of numbers, constants, errors, warnings, units.
 ! A failure is an `error_t`, allocated where it happens and passed up. Begin with `set_error` in
 ! `errors.f90`. Units of decks are read by `read_unit` in `units.f90`; `output_units.f90` has those
-! of results.
+! of results, `natures.f90` those of coordinates.
 ! Not here: text (`src/base/words`), files, signals, ranks (`src/base/system`), matrices and
 ! integration (`src/base/numerics`).
 

@@ -2,14 +2,14 @@
 !! customary for the quantity. What bare numbers of a deck mean is not affected.
 module output_units
   use errors, only: error_t
-  use units, only: coherent_unit, dimension_force, dimension_line_stiffness, dimension_moment, &
-    dimension_rate, dimension_stress, dimension_time, dimension_turning_stiffness, name_known, &
-    read_unit, unit_system_t, unit_t
+  use natures, only: nature_t
+  use units, only: coherent_unit, dimension_force, dimension_moment, dimension_rate, &
+    dimension_stress, dimension_time, name_known, read_unit, unit_system_t, unit_t
   implicit none (type, external)
   private
 
   public :: output_units_t, new_output_units, table_name, stress_unit, stress_factor, power_unit, &
-    power_factor, stiffness_unit, stiffness_factor, damping_unit
+    power_factor, stiffness_unit, damping_unit
 
   !> Angles are in degrees, angular accelerations in rad/s², frequencies in Hz.
   type :: output_units_t
@@ -102,57 +102,47 @@ contains
     measure%denominator = outputs%energy%denominator
   end function power_factor
 
-  !> The unit of stiffness, of a line or of a turn: forces per length, moments per radian.
-  pure function stiffness_unit(outputs, turning) result(measure)
+  !> The unit of stiffness along a coordinate: of what acts along it per its change.
+  pure function stiffness_unit(outputs, nature) result(measure)
     type(output_units_t), intent(in) :: outputs !! of the deck's results
-    logical, intent(in) :: turning              !! of a torsional spring
+    type(nature_t), intent(in) :: nature        !! of the coordinate
     type(unit_t) :: measure
 
-    measure = stiffness_factor(outputs, turning)
-    if (turning) then
-      measure%name = outputs%moment%name//"/rad"
-    else
-      measure%name = outputs%force%name//"/"//outputs%system%length%name
-    end if
+    measure = effort_per_change(outputs, nature, "")
+    measure%dimension = nature%stiffness
   end function stiffness_unit
 
-  !> As `stiffness_unit`, without the name.
-  pure function stiffness_factor(outputs, turning) result(measure)
+  !> The unit of damping along a coordinate: that of stiffness times that of time.
+  pure function damping_unit(outputs, nature) result(measure)
     type(output_units_t), intent(in) :: outputs !! of the deck's results
-    logical, intent(in) :: turning              !! of a torsional spring
+    type(nature_t), intent(in) :: nature        !! of the coordinate
     type(unit_t) :: measure
 
-    if (turning) then
-      measure%dimension = dimension_turning_stiffness
-      measure%numerator = outputs%moment%numerator
-      measure%denominator = outputs%moment%denominator
-      return
-    end if
-    associate (force => outputs%force, length => outputs%system%length)
-      measure%dimension = dimension_line_stiffness
-      measure%numerator = force%numerator*length%denominator
-      measure%denominator = force%denominator*length%numerator
-    end associate
-  end function stiffness_factor
-
-  !> The unit of damping of a line or of a turn: that of stiffness times that of time.
-  pure function damping_unit(outputs, turning) result(measure)
-    type(output_units_t), intent(in) :: outputs !! of the deck's results
-    logical, intent(in) :: turning              !! of a torsional damper
-    type(unit_t) :: measure
-
-    measure = stiffness_factor(outputs, turning)
     associate (time => outputs%system%time)
-      measure%dimension = measure%dimension + dimension_time
+      measure = effort_per_change(outputs, nature, "."//time%name)
+      measure%dimension = nature%damping
       measure%numerator = measure%numerator*time%numerator
       measure%denominator = measure%denominator*time%denominator
-      if (turning) then
-        measure%name = outputs%moment%name//"."//time%name//"/rad"
-      else
-        measure%name = outputs%force%name//"."//time%name//"/"//outputs%system%length%name
-      end if
     end associate
   end function damping_unit
+
+  !> Without the dimension. Changes of angles are in radians.
+  pure function effort_per_change(outputs, nature, factor) result(measure)
+    type(output_units_t), intent(in) :: outputs
+    type(nature_t), intent(in) :: nature
+    character(len=*), intent(in) :: factor !! in the name, behind the effort
+    type(unit_t) :: measure
+
+    type(unit_t) :: effort, change
+
+    effort = outputs%force
+    if (all(nature%effort == dimension_moment)) effort = outputs%moment
+    change%name = "rad"
+    if (nature%value(4) == 0) change = coherent_unit(outputs%system, nature%value)
+    measure%numerator = effort%numerator*change%denominator
+    measure%denominator = effort%denominator*change%numerator
+    measure%name = effort%name//factor//"/"//change%name
+  end function effort_per_change
 
   !> A unit known to exist, with the name that tables have.
   pure function unit_of(text, dimension) result(measure)

@@ -10,6 +10,7 @@ module coordinate_builder
   use name_index, only: name_index_t
   use named_coordinates, only: coordinate_number, find_named_coordinates, named_coordinate_t, &
     of_measure, of_ram, of_slider, of_spring
+  use natures, only: length_nature, nature_t
   use process_cards, only: over_measure
   use spring_builder, only: angle_between, coordinate_of_spring, place_of
   implicit none (type, external)
@@ -20,9 +21,9 @@ module coordinate_builder
   !> A coordinate of the linkage, by its number there, and what acts along it.
   type :: listed_coordinate_t
     character(len=:), allocatable :: name
-    logical :: is_angle = .false. !! else a length
-    integer :: drive = 0          !! number of the drive that gives it, or of the actuator along it,
-                                  !! where these give efforts; 0: none
+    type(nature_t) :: nature = length_nature
+    integer :: drive = 0 !! number of the drive that gives it, or of the actuator along it, where
+                         !! these give efforts; 0: none
   end type listed_coordinate_t
 
 contains
@@ -104,7 +105,7 @@ contains
         if (drive > 0) it%drive = held_by(linkage, drive)
         if (.not. present(listed)) cycle
         listed(i)%name = named(i)%name
-        listed(i)%is_angle = named(i)%is_angle
+        listed(i)%nature = named(i)%nature
         listed(i)%drive = drive
       end associate
     end do

@@ -46,7 +46,7 @@ contains
         load%name = spring%name%text
         load%side = spring%side
         load%rest = load%rest + spring%side*spring%gap
-        load%contact = contact_width(linkage, spring%contact, spring%stiffness, spring%turns)
+        load%contact = contact_width(linkage, spring%contact, spring%stiffness, spring%nature)
       end associate
     end do
   end function springs_of

@@ -4,6 +4,7 @@ module stop_builder
   use kinds, only: wp
   use linkages, only: linkage_t
   use models, only: model_t
+  use natures, only: nature_t
   use rigid_bodies, only: rigid_bodies_of, total_mass
   implicit none (type, external)
   private
@@ -31,18 +32,18 @@ contains
         load%rest = card%limit
         load%stiffness = card%stiffness
         load%damping = card%damping
-        load%contact = contact_width(linkage, card%contact, card%stiffness, card%turns)
+        load%contact = contact_width(linkage, card%contact, card%stiffness, card%nature)
       end associate
     end do
   end function stops_of
 
   !> The width in which a contact begins: that of its card, or a hundredth of the depth to which the
   !! weight of all bodies would press it, of an angle at the length of the longest [m] or [rad].
-  pure function contact_width(linkage, given, stiffness, turns) result(width)
+  pure function contact_width(linkage, given, stiffness, nature) result(width)
     type(linkage_t), intent(in) :: linkage !! with its masses and gravity
     real(wp), intent(in) :: given          !! 0: not on the card
     real(wp), intent(in) :: stiffness      !! [N/m] or [N m/rad]
-    logical, intent(in) :: turns           !! it is of an angle
+    type(nature_t), intent(in) :: nature   !! of the coordinate
     real(wp) :: width
 
     integer :: elements(size(linkage%bodies))
@@ -52,7 +53,7 @@ contains
     elements = 0
     width = 0.01_wp*total_mass(linkage, rigid_bodies_of(linkage, elements))* &
       norm2(linkage%gravity)/stiffness
-    if (turns) width = width*maxval(linkage%bodies%length)
+    width = width*maxval(linkage%bodies%length)**(1 - nature%value(1))
   end function contact_width
 
 end module stop_builder

@@ -1,8 +1,9 @@
 !> What gives the efforts that move a linkage: the coordinates of ACTUATE cards, or the drives.
 module effort_sources
-  use drive_cards, only: moves_along
+  use drive_cards, only: nature_of_drive
   use models, only: model_t
   use named_coordinates, only: find_named_coordinates, named_coordinate_t
+  use natures, only: angle_nature, nature_t
   implicit none (type, external)
   private
 
@@ -10,7 +11,7 @@ module effort_sources
 
   type :: effort_source_t
     character(len=:), allocatable :: name
-    logical :: is_force = .false. !! along a length; else a torque
+    type(nature_t) :: nature = angle_nature
   end type effort_source_t
 
 contains
@@ -27,7 +28,7 @@ contains
       allocate (sources(size(model%drives)))
       do i = 1, size(sources)
         sources(i)%name = model%drives(i)%subject%text
-        sources(i)%is_force = moves_along(model%drives(i)%kind)
+        sources(i)%nature = nature_of_drive(model%drives(i)%kind)
       end do
       return
     end if
@@ -36,7 +37,7 @@ contains
     do i = 1, size(sources)
       associate (it => model%actuators(i))
         sources(i)%name = it%name%text
-        if (it%coordinate > 0) sources(i)%is_force = .not. named(it%coordinate)%is_angle
+        if (it%coordinate > 0) sources(i)%nature = named(it%coordinate)%nature
       end associate
     end do
   end subroutine find_effort_sources

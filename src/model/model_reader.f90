@@ -11,7 +11,7 @@ module model_reader
   use card_table, only: card_kind_number, card_kinds, card_names
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
-  use drive_cards, only: branch_t, card_named, kind_of_drive, moves_along, read_branch, read_drive
+  use drive_cards, only: branch_t, kind_of_drive, moves_along, read_branch, read_drive
   use drive_checks, only: check_drives
   use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
   use errors, only: error_of_writing
@@ -29,7 +29,7 @@ module model_reader
   use linkage_cards, only: read_ground, read_mesh, read_pin_mass, set_default_mesh
   use load_cards, only: force_card_t, read_force, read_gravity, read_torque, torque_card_t
   use materials, only: read_material
-  use measure_cards, only: read_measure_card
+  use measure_cards, only: card_named, read_measure_card
   use measure_checks, only: check_measures
   use mesh_checks, only: check_meshes
   use models, only: as_four_bar, drives_length, has_gauge_histories, has_law, is_four_bar, &
@@ -581,7 +581,7 @@ contains
           if (torque%link_name%line > 0) call append_card(model%torques, torque)
         end if
       case ("MEASURE")
-        call read_measure_card(card, system, diagnostics, model%measures(number))
+        call read_measure_card(card, cards, system, diagnostics, model%measures(number))
       case ("ACTUATE")
         call read_actuators(card, diagnostics, model%actuators)
       case ("MOTOR")

@@ -12,7 +12,7 @@ module models
   use balance_cards, only: balance_card_t, shaft_card_t
   use body_cards, only: mass_card_t, point_t
   use card_echo, only: echo_line_t
-  use drive_cards, only: branch_t, drive_angle, drive_card_t, moves_along
+  use drive_cards, only: branch_t, drive_angle, drive_card_t, moves_along, nature_of_drive
   use effect_cards, only: effects_axial, effects_static
   use friction_cards, only: friction_card_t
   use joint_cards, only: drawn_pin_t, guide_t, slider_card_t, weld_t
@@ -25,6 +25,7 @@ module models
   use measure_cards, only: measure_card_t
   use motion_programs, only: motion_program_t
   use motor_cards, only: motor_t
+  use natures, only: angle_nature, nature_t
   use process_cards, only: over_nothing, process_card_t
   use output_units, only: output_units_t
   use report_cards, only: report_t
@@ -48,8 +49,8 @@ module models
     bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
     link_line_density, speed_in_table, speed_in_words, is_four_bar, as_four_bar, &
     is_of_four_bar, word_of_four_bar, is_pin, pivots, &
-    is_end_of_spring, is_end_of_measure, drives_length, balances, has_law, runs_in_time, &
-    rule_at_change_points, motion_goes_through
+    is_end_of_spring, is_end_of_measure, nature_of_positions, drives_length, balances, &
+    has_law, runs_in_time, rule_at_change_points, motion_goes_through
   public :: inertia_none, inertia_lumped, inertia_distributed, effects_static, effects_axial
   public :: solver_auto, solver_deformation, solver_dense, solver_band, branch_open, branch_crossed
 
@@ -397,6 +398,15 @@ contains
       end do
     end do
   end function pin_uses
+
+  !> What positions of the deck are: those of its first drive.
+  pure function nature_of_positions(model) result(nature)
+    type(model_t), intent(in) :: model !! as read
+    type(nature_t) :: nature
+
+    nature = angle_nature
+    if (size(model%drives) > 0) nature = nature_of_drive(model%drives(1)%kind)
+  end function nature_of_positions
 
   !> Whether positions and speeds of the deck are those of a slider or a ram, lengths and
   !! velocities; else they are angles and angular velocities.

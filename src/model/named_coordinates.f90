@@ -1,8 +1,9 @@
 !> The coordinates of a linkage that have names: of springs and dampers, rams, sliders, measures.
 module named_coordinates
   use drive_cards, only: drive_ram
-  use measure_cards, only: measure_angle, measure_sum
+  use measure_cards, only: measure_sum
   use models, only: model_t
+  use natures, only: length_nature, nature_t
   use text, only: same_word
   use tokens, only: token_t
   implicit none (type, external)
@@ -20,7 +21,7 @@ module named_coordinates
     integer :: source = of_spring !! one of the of_… constants
     integer :: number = 0         !! of the card in the model's list; of a ram, of its DRIVE
     type(token_t) :: word         !! that gives the name
-    logical :: is_angle = .false. !! else a length
+    type(nature_t) :: nature = length_nature
     logical :: is_sum = .false.
   end type named_coordinate_t
 
@@ -32,39 +33,36 @@ contains
     type(model_t), intent(in) :: model !! as read
     type(named_coordinate_t), allocatable, intent(out) :: list(:)
 
-    integer :: i, filled, kind
+    integer :: i, filled
 
     allocate (list(size(model%springs) + count(model%drives%kind == drive_ram) + &
       size(model%sliders) + size(model%measures)))
     filled = 0
     do i = 1, size(model%springs)
-      call append(list, filled, of_spring, i, model%springs(i)%name, model%springs(i)%turns)
+      call append(list, filled, of_spring, i, model%springs(i)%name)
+      list(filled)%nature = model%springs(i)%nature
     end do
     do i = 1, size(model%drives)
       if (model%drives(i)%kind == drive_ram) call append(list, filled, of_ram, i, &
-        model%drives(i)%subject, .false.)
+        model%drives(i)%subject)
     end do
     do i = 1, size(model%sliders)
-      call append(list, filled, of_slider, i, model%sliders(i)%pin, .false.)
+      call append(list, filled, of_slider, i, model%sliders(i)%pin)
       if (sliders_at(model, model%sliders(i)%pin) > 1) list(filled)%name = list(filled)%name// &
         ":"//model%sliders(i)%on%text
     end do
     do i = 1, size(model%measures)
-      kind = model%measures(i)%kind
-      call append(list, filled, of_measure, i, model%measures(i)%name, kind == measure_angle)
-      list(filled)%is_sum = kind == measure_sum
-    end do
-    do i = 1, filled
-      if (list(i)%is_sum) list(i)%is_angle = adds_angles(model%measures(list(i)%number)%terms, list)
+      call append(list, filled, of_measure, i, model%measures(i)%name)
+      list(filled)%nature = model%measures(i)%nature
+      list(filled)%is_sum = model%measures(i)%kind == measure_sum
     end do
   end subroutine find_named_coordinates
 
-  pure subroutine append(list, filled, source, number, word, is_angle)
+  pure subroutine append(list, filled, source, number, word)
     type(named_coordinate_t), intent(inout) :: list(:)
     integer, intent(inout) :: filled !! how many it has so far
     integer, intent(in) :: source, number
     type(token_t), intent(in) :: word
-    logical, intent(in) :: is_angle
 
     filled = filled + 1
     associate (new => list(filled))
@@ -72,7 +70,6 @@ contains
       new%source = source
       new%number = number
       new%word = word
-      new%is_angle = is_angle
     end associate
   end subroutine append
 
@@ -89,20 +86,6 @@ contains
       if (same_word(model%sliders(i)%pin%text, pin%text)) number = number + 1
     end do
   end function sliders_at
-
-  !> Whether the first term of a sum is an angle.
-  pure function adds_angles(terms, list) result(adds)
-    type(token_t), intent(in) :: terms(:)
-    type(named_coordinate_t), intent(in) :: list(:)
-    logical :: adds
-
-    integer :: number
-
-    adds = .false.
-    if (size(terms) == 0) return
-    number = coordinate_number(list, terms(1)%text)
-    if (number > 0) adds = list(number)%is_angle .and. .not. list(number)%is_sum
-  end function adds_angles
 
   !> The number of a coordinate in a list; 0: none has the name.
   pure function coordinate_number(list, name) result(number)

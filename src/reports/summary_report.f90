@@ -7,9 +7,10 @@ module summary_report
   use frequency_report, only: effects_notes, shown_speed
   use kinds, only: wp
   use load_notes, only: acceleration_note
-  use models, only: accuracy_of_study, drives_length, has_law, model_t, needs_frequencies, &
-    needs_response, report_number
+  use models, only: accuracy_of_study, drives_length, has_law, model_t, nature_of_positions, &
+    needs_frequencies, needs_response, report_number
   use named_coordinates, only: find_named_coordinates, named_coordinate_t
+  use natures, only: length_nature, nature_t, of_effort, of_value
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, lay_out_columns, report_record_t, table_plan_t, &
     whole_table_t
@@ -118,6 +119,7 @@ contains
     character(len=*), intent(in) :: column
     character(len=:), allocatable :: unit
 
+    type(nature_t) :: nature
     type(effort_source_t), allocatable :: sources(:)
 
     select case (column(index(column, "_", back=.true.) + 1:))
@@ -127,7 +129,8 @@ contains
       unit = "speed"
       if (drives_length(model)) unit = model%speed_unit%name
     case ("crank")
-      unit = trim(merge("length", "deg   ", drives_length(model)))
+      nature = nature_of_positions(model)
+      unit = trim(nature%words(of_value))
     case ("error")
       unit = "-"
     case default
@@ -136,7 +139,7 @@ contains
       ! What turns a crank is a force on a slider.
       if (unit == "moment" .and. index(column, "torque") > 0) then
         call find_effort_sources(model, sources)
-        if (sources(1)%is_force) unit = "force"
+        unit = trim(sources(1)%nature%words(of_effort))
       end if
     end select
   end function unit_of
@@ -148,21 +151,17 @@ contains
     character(len=:), allocatable :: unit
 
     type(named_coordinate_t), allocatable :: named(:)
+    integer :: i
 
     call find_named_coordinates(model, named)
-    associate (reference => model%reports(report_number(model, "summary"))%reference, &
-        is_angle => named(quantity%mode)%is_angle)
+    associate (reference => model%reports(report_number(model, "summary"))%reference)
       unit = trim(quantity_kinds(quantity%kind)%unit)
-      select case (unit)
-      case ("length")
-        if (is_angle) unit = "deg"
-      case ("velocity")
-        if (is_angle) unit = "rate"
-      case ("force")
-        if (is_angle) unit = "moment"
-      case ("-")
-        unit = ratio_unit(model, is_angle, named(reference)%is_angle)
-      end select
+      if (unit == "-") then
+        unit = ratio_unit(model, named([quantity%mode, reference])%nature)
+        return
+      end if
+      i = findloc(length_nature%words == unit, .true., dim=1)
+      if (i > 0) unit = trim(named(quantity%mode)%nature%words(i))
     end associate
   end function unit_of_coordinate
 

@@ -1,6 +1,7 @@
 !> Columns of a report's table in the units of the deck, and the cells in them.
 module table_columns
   use kinds, only: wp
+  use natures, only: angle_nature, length_nature
   use number_text, only: number_width
   use output_units, only: output_units_t, power_factor, power_unit, stiffness_unit, &
     stress_factor, stress_unit
@@ -198,7 +199,8 @@ contains
     case ("stress")
       measure = stress_unit(outputs)
     case ("line_stiffness", "turning_stiffness")
-      measure = stiffness_unit(outputs, word == "turning_stiffness")
+      measure = stiffness_unit(outputs, merge(angle_nature, length_nature, &
+        word == "turning_stiffness"))
     case ("power")
       measure = power_unit(outputs)
     case default
@@ -222,6 +224,8 @@ contains
       call take_factor(outputs%force, measure)
     case ("moment")
       call take_factor(outputs%moment, measure)
+    case ("rate")
+      call take_factor(outputs%rate, measure)
     case ("stress")
       measure = stress_factor(outputs)
     case ("power")

@@ -7,15 +7,17 @@ module drive_cards
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
+  use measure_cards, only: card_named, nature_of_measure
+  use natures, only: angle_nature, are_alike, length_nature, nature_t
   use spelling, only: suggestion
   use text, only: same_word, word_list
   use tokens, only: token_t
-  use units, only: coherent_factor, dimension_angle, dimension_length, dimension_none, &
-    dimension_rate, dimension_velocity, to_si, unit_system_t, unit_t
+  use units, only: coherent_factor, dimension_none, to_si, unit_system_t, unit_t
   implicit none (type, external)
   private
 
-  public :: drive_card_t, branch_t, read_drive, read_branch, kind_of_drive, card_named, moves_along
+  public :: drive_card_t, branch_t, read_drive, read_branch, kind_of_drive, nature_of_drive, &
+    moves_along
   public :: drive_angle, drive_relative, drive_slider, drive_ram, drive_measured_length, &
     drive_measured_angle
   public :: branch_left, branch_right, branch_forward, branch_backward
@@ -76,6 +78,7 @@ contains
     type(card_t), intent(in) :: cards(:) !! all of the deck
     integer :: kind
 
+    type(nature_t) :: nature
     integer :: measure
 
     kind = 0
@@ -84,7 +87,8 @@ contains
       kind = drive_angle
       measure = card_named(cards, "MEASURE", card%words(1)%text)
       if (measure == 0 .or. card_named(cards, "LINK", card%words(1)%text) > 0) return
-      kind = merge(drive_measured_angle, drive_measured_length, is_of_angle(cards(measure), cards))
+      nature = nature_of_measure(cards(measure), cards)
+      kind = merge(drive_measured_angle, drive_measured_length, nature%noun == angle_nature%noun)
     case (2)
       kind = merge(drive_ram, drive_slider, same_word(card%words(2)%text, "length"))
     case (3)
@@ -92,47 +96,14 @@ contains
     end select
   end function kind_of_drive
 
-  !> Whether a MEASURE card is about an angle: a sum is as its first term.
-  pure function is_of_angle(measure, cards) result(is)
-    type(card_t), intent(in) :: measure
-    type(card_t), intent(in) :: cards(:)
-    logical :: is
+  !> What a drive's position is.
+  elemental function nature_of_drive(kind) result(nature)
+    integer, intent(in) :: kind !! one of the drive_… constants; 0: an angle
+    type(nature_t) :: nature
 
-    integer :: term
-
-    is = .false.
-    if (size(measure%words) < 3) return
-    is = same_word(measure%words(2)%text, "angle")
-    if (size(measure%words) < 4 .or. .not. same_word(measure%words(2)%text, "sum")) return
-    associate (name => measure%words(4)%text)
-      term = card_named(cards, "MEASURE", name)
-      if (term > 0) then
-        ! Sums of sums are refused later.
-        if (size(cards(term)%words) > 1) is = same_word(cards(term)%words(2)%text, "angle")
-        return
-      end if
-      term = max(card_named(cards, "SPRING", name), card_named(cards, "DAMPER", name))
-    end associate
-    if (term == 0) return
-    associate (words => cards(term)%words)
-      is = card_named(cards, "LINK", words(size(words))%text) > 0
-    end associate
-  end function is_of_angle
-
-  !> The first card of a keyword whose first word is a name; 0: there is none.
-  pure function card_named(cards, keyword, name) result(number)
-    type(card_t), intent(in) :: cards(:)     !! all of the deck
-    character(len=*), intent(in) :: keyword
-    character(len=*), intent(in) :: name     !! in any case of letters
-    integer :: number
-
-    do number = 1, size(cards)
-      if (.not. same_word(cards(number)%keyword%text, keyword)) cycle
-      if (size(cards(number)%words) == 0) cycle
-      if (same_word(cards(number)%words(1)%text, name)) return
-    end do
-    number = 0
-  end function card_named
+    nature = angle_nature
+    if (moves_along(kind)) nature = length_nature
+  end function nature_of_drive
 
   !> Whether a drive's position is a length; else it is an angle.
   elemental function moves_along(kind) result(along)
@@ -270,22 +241,21 @@ contains
 
     character(len=*), parameter :: of_position(*) = [character(len=5) :: "at", "speed", "ratio", &
       "phase"]
-    integer :: dimension(4), i, k
+    type(nature_t) :: nature
+    integer :: i, k
     logical :: fine
 
-    dimension = merge(dimension_length, dimension_angle, moves_along(drive%kind))
-    call read_entry_quantity(card, "at", dimension, system, .false., diagnostics, drive%at, fine)
+    nature = nature_of_drive(drive%kind)
+    call read_entry_quantity(card, "at", nature%value, system, .false., diagnostics, drive%at, fine)
     if (fine) drive%at_word = value_of(card, "at")
-    call read_entry_quantity(card, "phase", dimension, system, .false., diagnostics, drive%phase, &
-      fine)
-    call read_entry_quantity(card, "speed", merge(dimension_velocity, dimension_rate, &
-      moves_along(drive%kind)), system, .false., diagnostics, drive%speed, fine)
+    call read_entry_quantity(card, "phase", nature%value, system, .false., diagnostics, &
+      drive%phase, fine)
+    call read_entry_quantity(card, "speed", nature%rate, system, .false., diagnostics, &
+      drive%speed, fine)
     if (fine .and. drive%is_free .and. .not. drive%has_ratio) drive%speed_word = value_of(card, &
       "speed")
-    if (has_value(card, "ratio")) then
-      call read_ratio(value_of(card, "ratio"), moves_along(drive%kind), moves_along(first_kind), &
-        system, diagnostics, drive)
-    end if
+    if (has_value(card, "ratio")) call read_ratio(value_of(card, "ratio"), &
+      nature_of_drive([drive%kind, first_kind]), system, diagnostics, drive)
     do i = 1, size(card%entries)
       associate (key => card%entries(i)%key)
         if (drive%law%line > 0 .and. any([(same_word(key%text, trim(of_position(k))), k=1, &
@@ -312,34 +282,28 @@ contains
   end subroutine read_position
 
   !> Reads the value of `ratio=`.
-  pure subroutine read_ratio(word, along, first_along, system, diagnostics, drive)
+  pure subroutine read_ratio(word, natures, system, diagnostics, drive)
     type(token_t), intent(in) :: word
-    logical, intent(in) :: along, first_along !! this drive's position and that of the first one
-                                              !! are lengths
+    type(nature_t), intent(in) :: natures(2) !! of this drive and of the first one
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
     type(drive_card_t), intent(inout) :: drive
 
-    type(unit_t) :: length, angle, bare, measure
+    type(unit_t) :: own, first, bare, measure
     real(wp) :: value
     logical :: fine
 
     drive%ratio_word = word
-    if (along .eqv. first_along) then
+    if (are_alike(natures)) then
       call read_quantity(word, dimension_none, system, diagnostics, drive%ratio, fine)
       return
     end if
-    length = system%length
-    angle = coherent_factor(system, dimension_angle)
-    if (first_along) then
-      bare = angle
-      angle = length
-      length = bare
-    end if
+    own = coherent_factor(system, natures(1)%value)
+    first = coherent_factor(system, natures(2)%value)
     bare%name = ""
-    bare%dimension = length%dimension - angle%dimension
-    bare%numerator = length%numerator*angle%denominator
-    bare%denominator = length%denominator*angle%numerator
+    bare%dimension = own%dimension - first%dimension
+    bare%numerator = own%numerator*first%denominator
+    bare%denominator = own%denominator*first%numerator
     call read_measure(word, bare%dimension, bare, diagnostics, value, measure, fine)
     if (fine) drive%ratio = to_si(value, measure)
   end subroutine read_ratio

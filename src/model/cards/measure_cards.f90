@@ -6,13 +6,14 @@ module measure_cards
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
+  use natures, only: angle_nature, length_nature, nature_t
   use text, only: same_word
   use tokens, only: token_t
   use units, only: dimension_none, unit_system_t
   implicit none (type, external)
   private
 
-  public :: measure_card_t, read_measure_card
+  public :: measure_card_t, read_measure_card, nature_of_measure, card_named
   public :: measure_distance, measure_angle, measure_along, measure_across, measure_travel, &
     measure_sum
 
@@ -24,6 +25,7 @@ module measure_cards
   type :: measure_card_t
     type(token_t) :: name                 !! without a line if the card cannot be read
     integer :: kind = 0                   !! one of the measure_… constants
+    type(nature_t) :: nature = length_nature
     type(token_t) :: places(2)            !! pins or POINTs: both of a distance, one of a place
     type(token_t) :: links(2)             !! of an angle: its link, and that from which it is
                                           !! measured
@@ -40,8 +42,9 @@ contains
 
   !> Reads `MEASURE name kind …`. Errors: words or keys that do not fit the kind, an unknown kind,
   !! an invalid name, unreadable numbers, a direction of no length, a weight without a name.
-  pure subroutine read_measure_card(card, system, diagnostics, measure)
+  pure subroutine read_measure_card(card, cards, system, diagnostics, measure)
     type(card_t), intent(in) :: card                  !! the MEASURE card
+    type(card_t), intent(in) :: cards(:)              !! all of the deck
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(measure_card_t), intent(out) :: measure      !! as read; names are not looked up
@@ -51,6 +54,7 @@ contains
     logical :: fine
 
     none = token_t("", 0, 0)
+    measure%nature = nature_of_measure(card, cards)
     measure%name = none
     measure%places(1) = none
     measure%places(2) = none
@@ -87,6 +91,52 @@ contains
     measure%name = card%words(1)
     call read_part_name(measure%name, diagnostics)
   end subroutine read_measure_card
+
+  !> What a MEASURE card is about: a sum is as its first term.
+  pure function nature_of_measure(card, cards) result(nature)
+    type(card_t), intent(in) :: card     !! the MEASURE card
+    type(card_t), intent(in) :: cards(:) !! all of the deck
+    type(nature_t) :: nature
+
+    type(token_t) :: word
+    integer :: term
+
+    nature = length_nature
+    if (size(card%words) < 3) return
+    word = card%words(2)
+    if (same_word(word%text, "sum") .and. size(card%words) > 3) then
+      associate (name => card%words(4)%text)
+        term = card_named(cards, "MEASURE", name)
+        ! Sums of sums are refused later.
+        if (term == 0) term = max(card_named(cards, "SPRING", name), &
+          card_named(cards, "DAMPER", name))
+      end associate
+      if (term == 0) return
+      associate (words => cards(term)%words)
+        if (same_word(cards(term)%keyword%text, "MEASURE")) then
+          if (size(words) > 1) word = words(2)
+        else if (card_named(cards, "LINK", words(size(words))%text) > 0) then
+          nature = angle_nature
+        end if
+      end associate
+    end if
+    if (same_word(word%text, "angle")) nature = angle_nature
+  end function nature_of_measure
+
+  !> The first card of a keyword whose first word is a name; 0: there is none.
+  pure function card_named(cards, keyword, name) result(number)
+    type(card_t), intent(in) :: cards(:)     !! all of the deck
+    character(len=*), intent(in) :: keyword
+    character(len=*), intent(in) :: name     !! in any case of letters
+    integer :: number
+
+    do number = 1, size(cards)
+      if (.not. same_word(cards(number)%keyword%text, keyword)) cycle
+      if (size(cards(number)%words) == 0) cycle
+      if (same_word(cards(number)%words(1)%text, name)) return
+    end do
+    number = 0
+  end function card_named
 
   !> Reads `angle link [against link]`.
   pure subroutine read_angle(card, diagnostics, measure, fine)

@@ -6,12 +6,11 @@ module spring_cards
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
+  use natures, only: angle_nature, length_nature, nature_t
   use stop_cards, only: read_contact
   use text, only: same_word
   use tokens, only: earlier, later, token_t
-  use units, only: dimension_angle, dimension_damping, dimension_force, dimension_length, &
-    dimension_line_damping, dimension_line_stiffness, dimension_moment, &
-    dimension_turning_stiffness, unit_system_t
+  use units, only: unit_system_t
   implicit none (type, external)
   private
 
@@ -24,6 +23,7 @@ module spring_cards
     type(token_t) :: name                !! without a line if the card lacks it
     logical :: damps = .false.           !! a damper
     logical :: turns = .false.           !! torsional
+    type(nature_t) :: nature = length_nature !! of its coordinate
     type(token_t) :: ends(2)             !! pins or points; of a torsional one the first is its pin
     type(token_t) :: link_names(2)       !! of a torsional one; the second has no line if the first
                                          !! turns against the ground
@@ -65,6 +65,7 @@ contains
     type(spring_card_t), intent(out) :: spring             !! as read; names are not looked up
 
     type(token_t) :: none
+    character(len=:), allocatable :: rest, load
     logical :: fine, known_keys, has_load, is_stiff
 
     none = token_t("", 0, 0)
@@ -78,6 +79,9 @@ contains
     spring%side_word = none
     spring%damps = same_word(card%keyword%text, "DAMPER")
     spring%turns = turns
+    if (turns) spring%nature = angle_nature
+    rest = "free_"//trim(spring%nature%noun)
+    load = trim(spring%nature%effort_noun)
     call check_form(card, diagnostics, fine, known_keys)
     if (size(card%words) > 0) then
       spring%name = card%words(1)
@@ -95,44 +99,34 @@ contains
       end if
     end if
     if (spring%damps) then
-      call read_factor(card, "damping", merge(dimension_damping, dimension_line_damping, turns), &
-        known_keys, system, diagnostics, spring%damping, fine)
+      call read_factor(card, "damping", spring%nature%damping, known_keys, system, diagnostics, &
+        spring%damping, fine)
       return
     end if
-    call read_factor(card, "stiffness", merge(dimension_turning_stiffness, &
-      dimension_line_stiffness, turns), known_keys, system, diagnostics, spring%stiffness, &
-      is_stiff)
+    call read_factor(card, "stiffness", spring%nature%stiffness, known_keys, system, diagnostics, &
+      spring%stiffness, is_stiff)
     call refuse_other_form(card, turns, diagnostics)
-    if (turns) then
-      call read_entry_quantity(card, "free_angle", dimension_angle, system, .false., diagnostics, &
-        spring%rest, spring%has_rest)
-      call read_entry_quantity(card, "torque", dimension_moment, system, .false., diagnostics, &
-        spring%load, has_load)
-      if (has_load) spring%load_word = value_of(card, "torque")
-    else
-      call read_entry_quantity(card, "free_length", dimension_length, system, .false., &
-        diagnostics, spring%rest, spring%has_rest)
-      if (spring%has_rest) call refuse_negative(value_of(card, "free_length"), spring%rest, &
-        "a free length", diagnostics)
-      call read_entry_quantity(card, "force", dimension_force, system, .false., diagnostics, &
-        spring%load, has_load)
-      if (has_load) spring%load_word = value_of(card, "force")
-    end if
-    call read_side(card, turns, is_stiff, system, diagnostics, spring)
-    if (spring%has_rest .and. has_load) call refuse_both(card, merge("free_angle ", &
-      "free_length", turns), merge("torque", "force ", turns), diagnostics)
+    call read_entry_quantity(card, rest, spring%nature%value, system, .false., diagnostics, &
+      spring%rest, spring%has_rest)
+    if (spring%has_rest .and. .not. turns) call refuse_negative(value_of(card, rest), spring%rest, &
+      "a free length", diagnostics)
+    call read_entry_quantity(card, load, spring%nature%effort, system, .false., diagnostics, &
+      spring%load, has_load)
+    if (has_load) spring%load_word = value_of(card, load)
+    call read_side(card, rest, load, is_stiff, system, diagnostics, spring)
+    if (spring%has_rest .and. has_load) call refuse_both(card, rest, load, diagnostics)
     if (is_stiff .and. .not. spring%stiffness > 0.0_wp .and. .not. has_load .and. &
       spring%side_word%line == 0) call &
       add_error(diagnostics, value_of(card, "stiffness"), &
-      "a spring without stiffness does nothing but with '"//trim(merge("torque", "force ", &
-      turns))//"=', which it then keeps")
+      "a spring without stiffness does nothing but with '"//load//"=', which it then keeps")
   end subroutine read_spring
 
   !> Reads `[only=push|pull [gap=] [damping=] [contact=]]`. Errors: unreadable or negative values,
   !! the others without the first, a load in the drawing beside it, no stiffness.
-  pure subroutine read_side(card, turns, is_stiff, system, diagnostics, spring)
+  pure subroutine read_side(card, rest, load, is_stiff, system, diagnostics, spring)
     type(card_t), intent(in) :: card
-    logical, intent(in) :: turns, is_stiff !! its stiffness was read
+    character(len=*), intent(in) :: rest, load !! keys
+    logical, intent(in) :: is_stiff !! its stiffness was read
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
     type(spring_card_t), intent(inout) :: spring !! with all else
@@ -153,13 +147,12 @@ contains
     spring%side_word = value_of(card, "only")
     call read_choice(spring%side_word, "push pull", diagnostics, choice)
     if (choice > 0) spring%side = merge(-1, 1, choice == 1)
-    call read_entry_quantity(card, "gap", merge(dimension_angle, dimension_length, turns), system, &
-      .false., diagnostics, spring%gap, fine)
+    call read_entry_quantity(card, "gap", spring%nature%value, system, .false., diagnostics, &
+      spring%gap, fine)
     if (fine) call refuse_negative(value_of(card, "gap"), spring%gap, "a gap", diagnostics)
-    call read_contact(card, turns, system, diagnostics, spring%damping, spring%contact)
-    if (spring%load_word%line > 0) call add_error(diagnostics, key_of(card, &
-      trim(merge("torque", "force ", turns))), "a spring of one side is unloaded in the "// &
-      "drawing, or at '"//trim(merge("free_angle ", "free_length", turns))//"='")
+    call read_contact(card, spring%nature, system, diagnostics, spring%damping, spring%contact)
+    if (spring%load_word%line > 0) call add_error(diagnostics, key_of(card, load), &
+      "a spring of one side is unloaded in the drawing, or at '"//rest//"='")
     if (is_stiff) call require_positive(card, "stiffness", spring%stiffness, diagnostics)
   end subroutine read_side
 
@@ -212,10 +205,9 @@ contains
 
     type(token_t) :: first
 
-    first = earlier(key_of(card, trim(rest)), key_of(card, trim(load)))
-    call add_error(diagnostics, later(key_of(card, trim(rest)), key_of(card, trim(load))), &
-      "a spring has '"//trim(rest)//"=' or '"//trim(load)//"=', not both", first, "'"// &
-      first%text//"=' is given here")
+    first = earlier(key_of(card, rest), key_of(card, load))
+    call add_error(diagnostics, later(key_of(card, rest), key_of(card, load)), "a spring has '"// &
+      rest//"=' or '"//load//"=', not both", first, "'"//first%text//"=' is given here")
   end subroutine refuse_both
 
 end module spring_cards

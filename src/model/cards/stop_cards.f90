@@ -6,9 +6,9 @@ module stop_cards
   use cards, only: card_t
   use diagnostics, only: diagnostics_t
   use kinds, only: wp
+  use natures, only: length_nature, nature_t
   use tokens, only: token_t
-  use units, only: dimension_angle, dimension_damping, dimension_length, dimension_line_damping, &
-    dimension_line_stiffness, dimension_turning_stiffness, unit_system_t
+  use units, only: unit_system_t
   implicit none (type, external)
   private
 
@@ -19,7 +19,7 @@ module stop_cards
     type(token_t) :: name            !! without a line if the card lacks it
     type(token_t) :: measure         !! name of the coordinate; without a line likewise
     integer :: number = 0            !! of the coordinate among those with names; 0: unknown
-    logical :: turns = .false.       !! it is an angle
+    type(nature_t) :: nature = length_nature !! of the coordinate
     logical :: is_below = .false.    !! what is below the limit is pushed back; else what is above
     real(wp) :: limit = 0.0_wp       !! [m] or [rad]
     real(wp) :: stiffness = 0.0_wp   !! [N/m] or [N m/rad]
@@ -32,9 +32,9 @@ contains
   !> Reads `STOP name measure limit= stiffness= [damping=] [contact=] [below]`. Errors: words or
   !! keys that do not fit the card, an invalid name, a missing or unreadable value, a stiffness or
   !! width that is not positive, a negative damping.
-  pure subroutine read_stop(card, turns, system, diagnostics, stop)
+  pure subroutine read_stop(card, nature, system, diagnostics, stop)
     type(card_t), intent(in) :: card                  !! the STOP card
-    logical, intent(in) :: turns                      !! the coordinate that it names is an angle
+    type(nature_t), intent(in) :: nature              !! of the coordinate that it names
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(stop_card_t), intent(out) :: stop            !! as read; names are not looked up
@@ -45,7 +45,7 @@ contains
     stop%keyword = card%keyword
     stop%name = token_t("", 0, 0)
     stop%measure = token_t("", 0, 0)
-    stop%turns = turns
+    stop%nature = nature
     call check_form(card, diagnostics, fine, known_keys)
     if (.not. fine) return
     stop%name = card%words(1)
@@ -55,19 +55,19 @@ contains
       call read_choice(card%words(3), "below", diagnostics, choice)
       stop%is_below = choice == 1
     end if
-    call read_entry_quantity(card, "limit", merge(dimension_angle, dimension_length, turns), &
-      system, known_keys, diagnostics, stop%limit, fine)
-    call read_entry_quantity(card, "stiffness", merge(dimension_turning_stiffness, &
-      dimension_line_stiffness, turns), system, known_keys, diagnostics, stop%stiffness, fine)
+    call read_entry_quantity(card, "limit", nature%value, system, known_keys, diagnostics, &
+      stop%limit, fine)
+    call read_entry_quantity(card, "stiffness", nature%stiffness, system, known_keys, diagnostics, &
+      stop%stiffness, fine)
     if (fine) call require_positive(card, "stiffness", stop%stiffness, diagnostics)
-    call read_contact(card, turns, system, diagnostics, stop%damping, stop%contact)
+    call read_contact(card, nature, system, diagnostics, stop%damping, stop%contact)
   end subroutine read_stop
 
   !> Reads `[damping=] [contact=]` of what acts on one side of a limit. Errors: unreadable values, a
   !! negative damping, a width that is not positive.
-  pure subroutine read_contact(card, turns, system, diagnostics, damping, contact)
+  pure subroutine read_contact(card, nature, system, diagnostics, damping, contact)
     type(card_t), intent(in) :: card                  !! of any kind
-    logical, intent(in) :: turns                      !! of an angle
+    type(nature_t), intent(in) :: nature              !! of the coordinate
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     real(wp), intent(out) :: damping                  !! [N s/m] or [N m s/rad]
@@ -75,11 +75,11 @@ contains
 
     logical :: fine
 
-    call read_entry_quantity(card, "damping", merge(dimension_damping, dimension_line_damping, &
-      turns), system, .false., diagnostics, damping, fine)
+    call read_entry_quantity(card, "damping", nature%damping, system, .false., diagnostics, &
+      damping, fine)
     if (fine) call refuse_negative(value_of(card, "damping"), damping, "the damping", diagnostics)
-    call read_entry_quantity(card, "contact", merge(dimension_angle, dimension_length, turns), &
-      system, .false., diagnostics, contact, fine)
+    call read_entry_quantity(card, "contact", nature%value, system, .false., diagnostics, contact, &
+      fine)
     if (.not. fine) return
     call require_positive(card, "contact", contact, diagnostics)
     ! It is not missing, too.

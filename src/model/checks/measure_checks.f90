@@ -12,12 +12,14 @@ module measure_checks
   use name_index, only: find_name, name_index_t, new_name_index
   use named_coordinates, only: coordinate_number, find_named_coordinates, named_coordinate_t, &
     of_measure
+  use natures, only: are_alike
   use spelling, only: suggestion
   use spring_checks, only: check_ends, is_on_weld, refuse_still_links, seek_place
   use summary_cards, only: summary_card_t
   use summary_quantities, only: quantity_kinds
   use text, only: same_word, string_t
   use tokens, only: token_part, token_t, token_texts
+  use units, only: dimension_name
   implicit none (type, external)
   private
 
@@ -257,12 +259,11 @@ contains
         cycle
       end if
       if (first == 0) first = number
-      if (all_names(number)%is_angle .eqv. all_names(first)%is_angle) cycle
+      if (are_alike(all_names([first, number])%nature)) cycle
       call add_error(diagnostics, measure%terms(i), "'"//measure%terms(i)%text//"' is "// &
-        trim(merge("an angle", "a length", all_names(number)%is_angle))//", and '"// &
-        all_names(first)%name//"' "//trim(merge("an angle", "a length", &
-        all_names(first)%is_angle))//": a sum is of one kind", measure%terms(1), &
-        "the first is here")
+        dimension_name(all_names(number)%nature%value)//", and '"//all_names(first)%name//"' "// &
+        dimension_name(all_names(first)%nature%value)//": a sum is of one kind", &
+        measure%terms(1), "the first is here")
     end do
   end subroutine check_sum
 

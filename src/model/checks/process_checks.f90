@@ -5,17 +5,17 @@ module process_checks
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use kinds, only: wp
-  use models, only: drives_length, has_law, model_t
+  use models, only: has_law, model_t, nature_of_positions
   use name_checks, only: link_ends, look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use named_coordinates, only: coordinate_number, find_named_coordinates, named_coordinate_t
+  use natures, only: angle_nature, length_nature, nature_t
   use process_cards, only: over_angle, over_drive, over_measure, over_slider, over_time, &
     over_travel, process_card_t, process_force, process_resistance
   use table_cards, only: number_table_t, read_table
   use text, only: same_word, to_string
-  use tokens, only: token_t, token_texts
-  use units, only: dimension_angle, dimension_force, dimension_length, dimension_moment, &
-    dimension_time
+  use tokens, only: token_texts
+  use units, only: dimension_force, dimension_moment, dimension_time
   implicit none (type, external)
   private
 
@@ -71,11 +71,13 @@ contains
 
     type(number_table_t) :: table
     integer :: dimensions(4, 2)
+    type(nature_t) :: nature
     logical :: fine, is_angle
 
-    call find_variable(model, links, pins, process, diagnostics, fine, is_angle)
+    call find_variable(model, links, pins, process, diagnostics, fine, nature)
     if (.not. fine) return
-    dimensions(:, 1) = merge(dimension_angle, dimension_length, is_angle)
+    is_angle = nature%noun == angle_nature%noun
+    dimensions(:, 1) = nature%value
     if (process%over == over_time) dimensions(:, 1) = dimension_time
     dimensions(:, 2) = merge(dimension_force, dimension_moment, process%kind == process_force)
     call read_table(cards, process%table_word, "position and load", dimensions, diagnostics, &
@@ -107,23 +109,23 @@ contains
   !> What a table is over: the first drive without `over=`; the place of the block at a pin; of
   !! another pin, on which the force acts, its travel; the angle of a link; a coordinate with a
   !! name; the time.
-  pure subroutine find_variable(model, links, pins, process, diagnostics, fine, is_angle)
+  pure subroutine find_variable(model, links, pins, process, diagnostics, fine, nature)
     type(model_t), intent(in) :: model
     type(name_index_t), intent(in) :: links, pins
     type(process_card_t), intent(inout) :: process
     type(diagnostics_t), intent(inout) :: diagnostics
     logical, intent(out) :: fine
-    logical, intent(out) :: is_angle !! of a coordinate
+    type(nature_t), intent(out) :: nature !! a length where it is none
 
     type(named_coordinate_t), allocatable :: named(:)
     integer :: i
 
     fine = .true.
     process%over = over_drive
-    is_angle = .not. drives_length(model)
+    nature = nature_of_positions(model)
     associate (word => process%over_word)
       if (word%line == 0) return
-      is_angle = .false.
+      nature = length_nature
       do i = 1, size(model%sliders)
         if (.not. same_word(model%sliders(i)%pin%text, word%text)) cycle
         process%over = over_slider
@@ -137,13 +139,15 @@ contains
       end if
       process%number = find_name(links, word%text)
       process%over = over_angle
-      is_angle = process%number > 0
-      if (is_angle) return
+      if (process%number > 0) then
+        nature = angle_nature
+        return
+      end if
       call find_named_coordinates(model, named)
       process%number = coordinate_number(named, word%text)
       process%over = merge(over_measure, over_time, process%number > 0)
       if (process%number > 0) then
-        is_angle = named(process%number)%is_angle
+        nature = named(process%number)%nature
         return
       end if
       if (same_word(word%text, "time")) return

@@ -292,7 +292,7 @@ contains
     integer :: i, k
 
     if (spring%damps .or. spring%has_rest .or. .not. spring%stiffness > 0.0_wp) return
-    key = trim(merge("free_angle ", "free_length", spring%turns))
+    key = "free_"//trim(spring%nature%noun)
     if (spring%turns) then
       do k = 1, 2
         if (spring%link(k) == 0) cycle

@@ -7,6 +7,7 @@ module stop_checks
   use measure_checks, only: refuse_two, seek_coordinate
   use models, only: model_t
   use named_coordinates, only: coordinate_number, find_named_coordinates, named_coordinate_t
+  use natures, only: length_nature, nature_t
   use stop_cards, only: read_stop
   use text, only: same_word
   use tokens, only: token_t
@@ -25,7 +26,7 @@ contains
 
     type(named_coordinate_t), allocatable :: named(:)
     integer :: i, filled, number
-    logical :: turns
+    type(nature_t) :: nature
 
     filled = 0
     do i = 1, size(cards)
@@ -40,9 +41,9 @@ contains
       filled = filled + 1
       number = 0
       if (size(cards(i)%words) > 1) number = coordinate_number(named, cards(i)%words(2)%text)
-      turns = .false.
-      if (number > 0) turns = named(number)%is_angle
-      call read_stop(cards(i), turns, model%units, diagnostics, model%stops(filled))
+      nature = length_nature
+      if (number > 0) nature = named(number)%nature
+      call read_stop(cards(i), nature, model%units, diagnostics, model%stops(filled))
       model%stops(filled)%number = number
     end do
   end subroutine read_stops

@@ -1,8 +1,7 @@
 !> `motion_coordinates.dat`: springs, dampers, rams, sliders and measures while the linkage moves
 !! under its motor and loads.
 module motion_coordinates_report
-  use coordinates_report, only: coordinate_names, coordinate_notes, mixes, shown_state, &
-    state_columns
+  use coordinates_report, only: coordinate_names, coordinate_notes, shown_state, state_columns
   use models, only: model_t
   use motion_pins_report, only: add_early_end, time_in_table
   use motion_study, only: undetermined_message
@@ -61,10 +60,8 @@ contains
     type(table_layout_t), intent(in) :: layout     !! of this table
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
-    logical :: mixed
     integer :: i, k
 
-    mixed = mixes(variant)
     associate (motion => variant%found%motion, listed => variant%mechanism%coordinates)
       do i = 1, motion%count
         if (.not. motion%is_determined(i)) then
@@ -74,7 +71,7 @@ contains
         do k = 1, size(listed)
           call add_row(rows, decimal_cell(time_in_table(variant%model, i))// &
             name_cell(listed(k)%name, column_width(layout, 2))//cells(layout, 3, &
-            shown_state(variant%model, listed(k)%is_angle, mixed, motion%coordinates(k, i))))
+            shown_state(variant, k, motion%coordinates(k, i))))
         end do
       end do
     end associate

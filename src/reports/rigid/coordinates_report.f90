@@ -1,6 +1,7 @@
 !> `coordinates.dat`: springs, dampers, rams, sliders and measures: how long they are, how they
 !! move, what acts along them. `ratios.dat`: how they move per movement of one of them.
 module coordinates_report
+  use coordinate_columns, only: columns_in, shown_values, unit_names
   use coordinate_study, only: coordinate_ratio, coordinate_state, coordinate_state_t, &
     is_without_direction
   use drive_motions, only: drive_rates, place_columns, table_place
@@ -10,22 +11,22 @@ module coordinates_report
   use load_notes, only: acceleration_note, actuator_words
   use models, only: model_t, report_number
   use named_coordinates, only: find_named_coordinates, named_coordinate_t
+  use natures, only: are_alike, nature_t, of_acceleration, of_effort, of_rate, of_value
   use position_rows, only: add_position_row
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, fit_columns, report_record_t, rest_table_t, state_table_t, &
     table_plan_t
-  use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
-    table_unit
+  use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: name_cell
   use text, only: append_string, string_t
-  use units, only: from_si, to_si, unit_t
+  use units, only: from_si, to_si
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
 
   public :: describe_coordinates, shown_state, state_columns, coordinate_names, coordinate_notes, &
-    state_at, mixes, find_lost_coordinate, has_direction, has_ratio, ratio_at, ratio_unit
+    state_at, find_lost_coordinate, has_direction, has_ratio, ratio_at, ratio_unit
 
   !> `coordinates.dat`.
   type, extends(state_table_t) :: coordinates_table_t
@@ -76,19 +77,11 @@ contains
     integer :: i
 
     allocate (notes(0))
-    associate (listed => variant%mechanism%coordinates, outputs => variant%model%outputs)
-      if (any(listed%is_angle) .and. .not. all(listed%is_angle)) then
-        do i = 1, size(listed)
-          if (listed(i)%is_angle) then
-            call append_string(notes, listed(i)%name//": deg, "//outputs%rate%name// &
-              ", rad/s2, "//outputs%moment%name)
-          else
-            call append_string(notes, listed(i)%name//": "//unit_name(variant, "length")//", "// &
-              unit_name(variant, "velocity")//", "//unit_name(variant, "acceleration")//", "// &
-              unit_name(variant, "force"))
-          end if
-        end do
-      end if
+    associate (listed => variant%mechanism%coordinates)
+      do i = 1, size(listed)
+        if (.not. are_alike(listed%nature)) call append_string(notes, listed(i)%name//": "// &
+          unit_names(listed(i)%nature%words, variant%model%outputs))
+      end do
     end associate
     call append_string(notes, "effort: of the spring, damper or drive itself, positive where "// &
       "it makes the coordinate grow: a stretched spring has an effort below 0")
@@ -96,17 +89,6 @@ contains
     if (size(variant%model%actuators) > 0) call append_string(notes, &
       actuator_words(variant%model))
   end function coordinate_notes
-
-  pure function unit_name(variant, quantity) result(name)
-    type(variant_results_t), intent(in) :: variant
-    character(len=*), intent(in) :: quantity
-    character(len=:), allocatable :: name
-
-    type(unit_t) :: measure
-
-    measure = table_unit(quantity, variant%model%outputs)
-    name = measure%name
-  end function unit_name
 
   !> What the ratios are.
   pure subroutine ratios_notes(variant, notes)
@@ -121,10 +103,10 @@ contains
       call append_string(notes, "ratio: change of the coordinate per change of "// &
         listed(reference)%name//"; a force along "// &
         "the coordinate is balanced by ratio times it along "//listed(reference)%name)
-      if (all(listed%is_angle .eqv. listed(reference)%is_angle)) return
+      if (are_alike(listed%nature)) return
       do i = 1, size(listed)
         if (i /= reference) call append_string(notes, listed(i)%name//": "// &
-          ratio_unit(variant%model, listed(i)%is_angle, listed(reference)%is_angle))
+          ratio_unit(variant%model, listed([i, reference])%nature))
       end do
     end associate
   end subroutine ratios_notes
@@ -159,8 +141,7 @@ contains
     plan%names(1) = coordinate_names(variant)
   end subroutine plan_coordinates
 
-  !> Columns of values in the units of angles or of lengths, if all coordinates have the same; else
-  !! each row has those of its coordinate, which stand in the head.
+  !> Columns of values.
   pure function state_columns(model) result(columns)
     type(model_t), intent(in) :: model !! with its springs, drives and measures
     character(len=:), allocatable :: columns
@@ -168,13 +149,8 @@ contains
     type(named_coordinate_t), allocatable :: named(:)
 
     call find_named_coordinates(model, named)
-    if (all(named%is_angle)) then
-      columns = "value:deg rate:rate acceleration:rad/s2 effort:moment power:power"
-    else if (any(named%is_angle)) then
-      columns = "value,rate,acceleration,effort:see_head power:power"
-    else
-      columns = "value:length rate:velocity acceleration:acceleration effort:force power:power"
-    end if
+    columns = columns_in(named%nature, "value rate acceleration effort", [of_value, of_rate, &
+      of_acceleration, of_effort])//" power:power"
   end function state_columns
 
   pure subroutine fit_coordinates(model, columns)
@@ -192,8 +168,7 @@ contains
     type(named_coordinate_t), allocatable :: named(:)
 
     call find_named_coordinates(model, named)
-    if (all(named%is_angle) .or. .not. any(named%is_angle)) columns = &
-      "crank:deg coordinate:name ratio:-"
+    if (are_alike(named%nature)) columns = "crank:deg coordinate:name ratio:-"
     call fit_columns(model, columns)
   end subroutine fit_ratios
 
@@ -211,9 +186,8 @@ contains
     associate (listed => variant%mechanism%coordinates)
       do i = 1, size(listed)
         if (has_direction(variant, position, i)) then
-          call add_position_row(variant, layout, position, speed, shown_state(variant%model, &
-            listed(i)%is_angle, mixes(variant), state_at(variant, position, speed, i)), rows, &
-            listed(i)%name)
+          call add_position_row(variant, layout, position, speed, shown_state(variant, &
+            i, state_at(variant, position, speed, i)), rows, listed(i)%name)
         else
           place = table_place(variant%model, speed, position)
           call add_meeting_row(variant, i, place, rows)
@@ -221,16 +195,6 @@ contains
       end do
     end associate
   end subroutine add_coordinates
-
-  !> Whether there are angles and lengths.
-  pure function mixes(variant)
-    type(variant_results_t), intent(in) :: variant
-    logical :: mixes
-
-    associate (is_angle => variant%mechanism%coordinates%is_angle)
-      mixes = any(is_angle) .and. .not. all(is_angle)
-    end associate
-  end function mixes
 
   !> A coordinate at a position and speed.
   pure function state_at(variant, position, speed, number) result(state)
@@ -260,26 +224,19 @@ contains
     end associate
   end function state_at
 
-  !> The values of a row: in SI but for degrees, and where angles and lengths are mixed in the units
-  !! of the results.
-  pure function shown_state(model, is_angle, is_mixed, state) result(values)
-    type(model_t), intent(in) :: model
-    logical, intent(in) :: is_angle !! else a length
-    logical, intent(in) :: is_mixed !! the columns have no unit
+  !> The values of a row: in SI but for degrees, and where the columns have no unit in those of the
+  !! results.
+  pure function shown_state(variant, number, state) result(values)
+    type(variant_results_t), intent(in) :: variant !! with its mechanism
+    integer, intent(in) :: number                  !! of the coordinate
     type(coordinate_state_t), intent(in) :: state
     real(wp) :: values(5)
 
     values = [state%value, state%rate, state%acceleration, state%effort, state%power]
-    if (.not. is_mixed) return
-    if (is_angle) then
-      values(2) = from_si(values(2), model%outputs%rate)
-      values(4) = from_si(values(4), table_factor("moment", model%outputs))
-    else
-      values(1) = from_si(values(1), table_factor("length", model%outputs))
-      values(2) = from_si(values(2), table_factor("velocity", model%outputs))
-      values(3) = from_si(values(3), table_factor("acceleration", model%outputs))
-      values(4) = from_si(values(4), table_factor("force", model%outputs))
-    end if
+    associate (listed => variant%mechanism%coordinates)
+      if (.not. are_alike(listed%nature)) values(:4) = shown_values(values(:4), &
+        listed(number)%nature%words, variant%model%outputs)
+    end associate
   end function shown_state
 
   !> A failed row where the ends of a coordinate meet.
@@ -372,30 +329,24 @@ contains
     logical :: moves
 
     associate (positions => variant%found%positions, linkage => variant%mechanism%linkage, &
-        is_angle => variant%mechanism%coordinates%is_angle)
+        listed => variant%mechanism%coordinates, outputs => variant%model%outputs)
       associate (at => positions%states(positions%state(position)))
         call coordinate_ratio(linkage, at%pose, at%coefficients, number, reference, ratio, moves)
       end associate
-      if (is_angle(number) .and. .not. is_angle(reference)) ratio = to_si(ratio, &
-        table_factor("length", variant%model%outputs))
-      if (.not. is_angle(number) .and. is_angle(reference)) ratio = from_si(ratio, &
-        table_factor("length", variant%model%outputs))
+      if (.not. are_alike(listed([number, reference])%nature)) ratio = to_si(from_si(ratio, &
+        table_factor(listed(number)%nature%in_ratio, outputs)), &
+        table_factor(listed(reference)%nature%in_ratio, outputs))
     end associate
   end function ratio_at
 
   !> Unit of a ratio.
-  pure function ratio_unit(model, is_angle, of_angle) result(unit)
+  pure function ratio_unit(model, natures) result(unit)
     type(model_t), intent(in) :: model
-    logical, intent(in) :: is_angle !! the coordinate is an angle; else a length
-    logical, intent(in) :: of_angle !! that to which it is compared is one
+    type(nature_t), intent(in) :: natures(2) !! of the coordinate, of that to which it is compared
     character(len=:), allocatable :: unit
 
-    type(unit_t) :: length
-
-    length = table_unit("length", model%outputs)
     unit = "-"
-    if (is_angle .and. .not. of_angle) unit = "rad/"//length%name
-    if (.not. is_angle .and. of_angle) unit = length%name//"/rad"
+    if (.not. are_alike(natures)) unit = unit_names(natures%in_ratio, model%outputs, "/")
   end function ratio_unit
 
   !> Whether a coordinate moves at a position, so that others have ratios to it.

@@ -7,22 +7,22 @@
 
 !> `reactions.dat` of linkages that are no four-bars; `drives.dat` and `shaking.dat` of any.
 module joints_report
+  use coordinate_columns, only: columns_in, shown_values, unit_names
   use drive_motions, only: drive_rates, place_columns, table_place
   use joint_study, only: drives_at_speed, joint_t, joints_at_speed
   use kinds, only: wp
   use effort_sources, only: effort_source_t, find_effort_sources
   use load_notes, only: acceleration_note, append_load_notes
   use models, only: model_t
+  use natures, only: are_alike, of_effort, of_rate, of_value
   use pins_report, only: pin_names
   use position_rows, only: add_position_row
   use report_kinds, only: other_linkages, report_kind_t
   use report_types, only: add_table, fit_columns, report_record_t, state_table_t, table_plan_t
-  use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
-    table_unit
+  use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: name_cell
   use text, only: append_string, string_t
-  use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -35,6 +35,9 @@ module joints_report
   character(len=*), parameter :: friction_note = "friction: within fx and fy of a block along "// &
     "its line, within moment in a pin, on both links or on the guide of the block; a ground "// &
     "pivot bears the opposite"
+
+  !> What `drives.dat` has of every drive.
+  integer, parameter :: of_drives(3) = [of_value, of_rate, of_effort]
 
   !> `reactions.dat` of other linkages.
   type, extends(state_table_t) :: joints_table_t
@@ -220,13 +223,8 @@ contains
 
     call find_effort_sources(variant%model, sources)
     do i = 1, size(sources)
-      if (sources(i)%is_force) then
-        call append_string(notes, "drive "//sources(i)%name//": "//units_text(variant, "length", &
-          "velocity", "force"))
-      else
-        call append_string(notes, "drive "//sources(i)%name//": deg, "// &
-          variant%model%outputs%rate%name//", "//variant%model%outputs%moment%name)
-      end if
+      call append_string(notes, "drive "//sources(i)%name//": "// &
+        unit_names(sources(i)%nature%words(of_drives), variant%model%outputs))
     end do
     call append_string(notes, "force: of the drive on what it moves, positive in the sense of "// &
       "its position")
@@ -236,27 +234,6 @@ contains
     call append_string(notes, acceleration_note(variant%model))
     call append_load_notes(notes, variant%model, variant%mechanism)
   end subroutine drives_notes
-
-  !> `mm, mm/s, N`
-  pure function units_text(variant, position, rate, force) result(words)
-    type(variant_results_t), intent(in) :: variant
-    character(len=*), intent(in) :: position, rate, force
-    character(len=:), allocatable :: words
-
-    words = trim(unit_name(variant, position))//", "//trim(unit_name(variant, rate))//", "// &
-      trim(unit_name(variant, force))
-  end function units_text
-
-  pure function unit_name(variant, quantity) result(name)
-    type(variant_results_t), intent(in) :: variant
-    character(len=*), intent(in) :: quantity
-    character(len=40) :: name
-
-    type(unit_t) :: measure
-
-    measure = table_unit(quantity, variant%model%outputs)
-    name = measure%name
-  end function unit_name
 
   !> The point about which shaking moments are: `pin O2`.
   pure function reference_words(variant) result(words)
@@ -295,8 +272,7 @@ contains
     end do
   end function drive_names
 
-  !> The columns of `drive.dat`: in the units of angles or of lengths, if all drives have the same;
-  !! else each row has those of its drive, which stand in the head.
+  !> The columns of `drive.dat`.
   pure function drive_columns(model) result(columns)
     type(model_t), intent(in) :: model !! with its drives
     character(len=:), allocatable :: columns
@@ -304,14 +280,8 @@ contains
     type(effort_source_t), allocatable :: sources(:)
 
     call find_effort_sources(model, sources)
-    columns = "speed:speed crank:deg drive:name "
-    if (all(sources%is_force)) then
-      columns = columns//"position:length rate:velocity force:force"
-    else if (any(sources%is_force)) then
-      columns = columns//"position,rate,force:see_head"
-    else
-      columns = columns//"position:deg rate:rate force:moment"
-    end if
+    columns = "speed:speed crank:deg drive:name "//columns_in(sources%nature, &
+      "position rate force", of_drives)
   end function drive_columns
 
   !> Appends the rows of a position and speed, one per drive.
@@ -325,7 +295,6 @@ contains
     type(effort_source_t), allocatable :: sources(:)
     real(wp), allocatable :: values(:, :)
     real(wp) :: rates(2)
-    logical :: mixed
     integer :: i
 
     rates = drive_rates(variant%model, speed, position)
@@ -335,18 +304,9 @@ contains
         positions%states(positions%state(position)), positions%state(position), &
         positions%crank(position), rates(1), rates(2), speed)
       call find_effort_sources(model, sources)
-      mixed = any(sources%is_force) .and. .not. all(sources%is_force)
       do i = 1, size(values, 2)
-        if (mixed) then
-          if (.not. sources(i)%is_force) then
-            values(2, i) = from_si(values(2, i), model%outputs%rate)
-            values(3, i) = from_si(values(3, i), table_factor("moment", model%outputs))
-          else
-            values(1, i) = from_si(values(1, i), table_factor("length", model%outputs))
-            values(2, i) = from_si(values(2, i), table_factor("velocity", model%outputs))
-            values(3, i) = from_si(values(3, i), table_factor("force", model%outputs))
-          end if
-        end if
+        if (.not. are_alike(sources%nature)) values(:, i) = shown_values(values(:, i), &
+          sources(i)%nature%words(of_drives), model%outputs)
         call add_position_row(variant, layout, position, speed, values(:, i), rows, &
           sources(i)%name)
       end do

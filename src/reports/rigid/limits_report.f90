@@ -1,15 +1,17 @@
 !> `linkage.dat` of linkages that are no four-bars: ranges of the drives, dead points, swings,
 !! strokes, time ratios, transmission and pressure angles, extremes of coordinates, a row each.
 module limits_report
-  use drive_cards, only: moves_along
-  use drive_positions, only: shown_crank
+  use coordinate_columns, only: shown_unit
+  use drive_cards, only: nature_of_drive
   use kinds, only: wp
   use limits_study, only: angle_of_body, crank_range_t, drive_range_t, place_of_slider, &
     quantity_t, time_ratio, transmission_of_dyad, transmission_of_lines, value_of_coordinate
   use limits_words, only: limits_names, limits_notes
+  use models, only: nature_of_positions
+  use natures, only: angle_nature, length_nature, nature_t
   use report_kinds, only: other_linkages, report_kind_t
   use report_types, only: add_table, report_record_t, table_plan_t, whole_table_t
-  use table_columns, only: cells, column_width, table_factor, table_layout_t, table_unit
+  use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: name_cell
   use units, only: from_si, unit_t
@@ -54,9 +56,11 @@ contains
     type(table_layout_t), intent(in) :: layout     !! of this table
     type(rows_t), intent(inout) :: rows            !! to which they are appended
 
+    type(nature_t) :: positions
     real(wp) :: nowhere(0)
     integer :: r, q
 
+    positions = nature_of_positions(variant%model)
     associate (found => variant%found%limits, names => variant%mechanism%names)
       if (size(found%ranges) == 0) call add_failed_row(rows, nowhere, &
         "the linkage closes nowhere")
@@ -64,10 +68,10 @@ contains
         if (.not. found%ranges(r)%turns) then
           if (.not. found%ranges(r)%is_open(1)) call put(variant, layout, rows, part_at_end( &
             variant, found%ranges(r), 1), "range_from", found%ranges(r)%from, &
-            shown_crank(variant, found%ranges(r)%from), of_drive=.true.)
+            found%ranges(r)%from, positions)
           if (.not. found%ranges(r)%is_open(2)) call put(variant, layout, rows, part_at_end( &
             variant, found%ranges(r), 2), "range_to", found%ranges(r)%to, &
-            shown_crank(variant, found%ranges(r)%to), of_drive=.true.)
+            found%ranges(r)%to, positions)
         end if
         call add_low_points(variant, layout, r, rows)
         do q = 1, size(found%quantities)
@@ -93,13 +97,13 @@ contains
       associate (point => variant%found%limits%low(r)%at(i))
         if (point%is_change) then
           call put(variant, layout, rows, part_of_group(variant, point%group), "change_point", &
-            point%crank, shown_crank(variant, point%crank), of_drive=.true.)
+            point%crank, point%crank, nature_of_positions(variant%model))
         else if (point%is_dead) then
           call put(variant, layout, rows, part_of_group(variant, point%group), "dead_point", &
-            point%crank, shown_crank(variant, point%crank), of_drive=.true.)
+            point%crank, point%crank, nature_of_positions(variant%model))
         else
           call put(variant, layout, rows, part_of_group(variant, point%group), &
-            "least_determinant", point%crank, point%sine, pure_number=.true.)
+            "least_determinant", point%crank, point%sine)
         end if
       end associate
     end do
@@ -112,19 +116,17 @@ contains
     type(drive_range_t), intent(in) :: further
     type(rows_t), intent(inout) :: rows
 
-    real(wp) :: ends(2)
+    type(nature_t) :: nature
     type(part_t) :: part
-    logical :: along
 
-    along = moves_along(variant%model%drives(further%drive)%kind)
-    ends = [further%range%from, further%range%to]
-    if (along) ends = from_si(ends, table_factor("length", variant%model%outputs))
+    nature = nature_of_drive(variant%model%drives(further%drive)%kind)
     associate (linkage => variant%mechanism%linkage)
       part%link = linkage%drives(further%drive)%body
       if (part%link == 0) part%pin = linkage%sliders(linkage%drives(further%drive)%slider)%pin
     end associate
-    call put(variant, layout, rows, part, "drive_from", further%crank(1), ends(1), is_place=along)
-    call put(variant, layout, rows, part, "drive_to", further%crank(2), ends(2), is_place=along)
+    call put(variant, layout, rows, part, "drive_from", further%crank(1), further%range%from, &
+      nature)
+    call put(variant, layout, rows, part, "drive_to", further%crank(2), further%range%to, nature)
   end subroutine add_further
 
   !> The rows of a quantity over a range.
@@ -144,7 +146,7 @@ contains
           call put_value("gain", 0.0_wp, x%turned)
         else
           call put(variant, layout, rows, part_of(variant, quantity), "turns", 0.0_wp, &
-            x%turned/360.0_wp, pure_number=.true.)
+            x%turned/360.0_wp)
         end if
         return
       end if
@@ -182,7 +184,7 @@ contains
       call put_value(trim(greatest), x%at_greatest, x%greatest)
       if (swing /= "") call put_value(trim(swing), x%at_greatest, x%greatest - x%least)
       if (ratio > 0.0_wp) call put(variant, layout, rows, part_of(variant, quantity), &
-        "time_ratio", x%at_greatest, ratio, pure_number=.true.)
+        "time_ratio", x%at_greatest, ratio)
     end associate
 
   contains
@@ -192,35 +194,24 @@ contains
       real(wp), intent(in) :: crank, value
 
       associate (quantity => variant%found%limits%quantities(q))
-        call put(variant, layout, rows, part_of(variant, quantity), word, crank, shown(variant, &
-          quantity, value), is_place=is_length(variant, quantity))
+        call put(variant, layout, rows, part_of(variant, quantity), word, crank, value, &
+          nature_of(variant, quantity))
       end associate
     end subroutine put_value
 
   end subroutine add_quantity
 
-  !> A value in the unit of the table.
-  pure function shown(variant, quantity, value) result(converted)
+  !> What a quantity is.
+  pure function nature_of(variant, quantity) result(nature)
     type(variant_results_t), intent(in) :: variant
     type(quantity_t), intent(in) :: quantity
-    real(wp), intent(in) :: value
-    real(wp) :: converted
+    type(nature_t) :: nature
 
-    converted = value
-    if (is_length(variant, quantity)) converted = from_si(value, table_factor("length", &
-      variant%model%outputs))
-  end function shown
-
-  !> Whether a quantity is a length; else an angle.
-  pure function is_length(variant, quantity)
-    type(variant_results_t), intent(in) :: variant
-    type(quantity_t), intent(in) :: quantity
-    logical :: is_length
-
-    is_length = quantity%kind == place_of_slider
-    if (quantity%kind == value_of_coordinate) is_length = .not. &
-      variant%mechanism%coordinates(quantity%number)%is_angle
-  end function is_length
+    nature = angle_nature
+    if (quantity%kind == place_of_slider) nature = length_nature
+    if (quantity%kind == value_of_coordinate) nature = &
+      variant%mechanism%coordinates(quantity%number)%nature
+  end function nature_of
 
   !> What a quantity is of.
   pure function part_of(variant, quantity) result(part)
@@ -276,20 +267,17 @@ contains
   end function part_of_group
 
   !> Appends a row.
-  subroutine put(variant, layout, rows, part, quantity, crank, value, is_place, pure_number, &
-    of_drive)
+  subroutine put(variant, layout, rows, part, quantity, crank, value, nature)
     type(variant_results_t), intent(in) :: variant
     type(table_layout_t), intent(in) :: layout
     type(rows_t), intent(inout) :: rows
     type(part_t), intent(in) :: part
     character(len=*), intent(in) :: quantity
     real(wp), intent(in) :: crank, value
-    logical, intent(in), optional :: is_place, pure_number, of_drive
+    type(nature_t), intent(in), optional :: nature !! of the value; absent: a pure number
 
     character(len=column_width(layout, 1)) :: part_cell
-    character(len=column_width(layout, 5)) :: unit_cell
-    type(unit_t) :: length
-    logical :: in_length
+    type(unit_t) :: measure
 
     associate (mechanism => variant%mechanism, width => column_width(layout, 1))
       if (part%coordinate > 0) then
@@ -303,15 +291,10 @@ contains
         part_cell = name_cell(mechanism%pin_names(part%pin)%text, width)
       end if
     end associate
-    in_length = .false.
-    if (present(is_place)) in_length = is_place
-    if (present(of_drive)) in_length = moves_along(variant%model%drives(1)%kind)
-    length = table_unit("length", variant%model%outputs)
-    unit_cell = name_cell("deg", column_width(layout, 5))
-    if (in_length) unit_cell = name_cell(length%name, column_width(layout, 5))
-    if (present(pure_number)) unit_cell = name_cell("1", column_width(layout, 5))
+    measure%name = "1"
+    if (present(nature)) measure = shown_unit(nature, variant%model%outputs)
     call add_row(rows, part_cell//name_cell(quantity, column_width(layout, 2))//cells(layout, 3, &
-      [crank, value])//unit_cell)
+      [crank, from_si(value, measure)])//name_cell(measure%name, column_width(layout, 5)))
   end subroutine put
 
   !> Names of parts, quantities and units.

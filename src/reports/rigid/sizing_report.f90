@@ -8,6 +8,7 @@ module sizing_report
   use models, only: has_law, model_t, report_number
   use motor_cards, only: is_geared
   use pins_report, only: pin_names
+  use natures, only: of_effort, of_rate
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, fit_columns, report_record_t, table_plan_t, whole_table_t
   use sizing_study, only: sized_t, sizing_result_t, sizing_t
@@ -219,21 +220,17 @@ contains
     type(rows_t), intent(inout) :: rows
 
     type(effort_source_t), allocatable :: sources(:)
-    character(len=6) :: word
     character(len=8) :: unit, unit_of_rate
-    character(len=:), allocatable :: part, names
+    character(len=:), allocatable :: part, names, word
 
     call find_effort_sources(variant%model, sources)
     part = sources(sized%drive)%name
     if (sized%is_motor) part = motor_word
-    word = "torque"
-    unit = "moment"
-    unit_of_rate = "rate"
-    if (sources(sized%drive)%is_force) then
-      word = "force"
-      unit = "force"
-      unit_of_rate = "velocity"
-    end if
+    associate (nature => sources(sized%drive)%nature)
+      word = trim(nature%effort_noun)
+      unit = nature%words(of_effort)
+      unit_of_rate = nature%words(of_rate)
+    end associate
     names = name_cell(part, column_width(layout, first_column(variant%model)))// &
       name_cell(no_pin, column_width(layout, first_column(variant%model) + 1))
     call put_rows(variant, layout, speed, names, [value_t("peak_"//word, sized%peak, unit, &

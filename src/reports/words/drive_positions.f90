@@ -7,9 +7,11 @@
 
 !> Positions of the first drive as tables show them.
 module drive_positions
+  use coordinate_columns, only: shown_unit
   use kinds, only: wp
-  use models, only: drives_length
-  use table_columns, only: table_factor, table_unit
+  use models, only: nature_of_positions
+  use natures, only: nature_t, of_value
+  use table_columns, only: table_factor
   use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -26,9 +28,10 @@ contains
     real(wp), intent(in) :: crank                  !! [deg] or [m]
     real(wp) :: shown
 
-    shown = crank
-    if (drives_length(variant%model)) shown = from_si(crank, table_factor("length", &
-      variant%model%outputs))
+    type(nature_t) :: nature
+
+    nature = nature_of_positions(variant%model)
+    shown = from_si(crank, table_factor(nature%words(of_value), variant%model%outputs))
   end function shown_crank
 
   !> The unit of the first drive in tables.
@@ -36,12 +39,10 @@ contains
     type(variant_results_t), intent(in) :: variant !! its model
     character(len=:), allocatable :: unit
 
-    type(unit_t) :: length
+    type(unit_t) :: measure
 
-    unit = "deg"
-    if (.not. drives_length(variant%model)) return
-    length = table_unit("length", variant%model%outputs)
-    unit = length%name
+    measure = shown_unit(nature_of_positions(variant%model), variant%model%outputs)
+    unit = measure%name
   end function unit_of_drive
 
 end module drive_positions

@@ -3,6 +3,7 @@ module friction_words
   use kinds, only: wp
   use mechanisms, only: mechanism_t
   use models, only: model_t
+  use natures, only: angle_nature, length_nature
   use output_units, only: damping_unit
   use friction_study, only: lock_t
   use text, only: append_string, string_t, to_string
@@ -41,7 +42,8 @@ contains
         if (rub%coefficient > 0.0_wp) line = line//" coefficient "//to_string(rub%coefficient, &
           12)//" (smooth within "//in_words(rub%smooth, rate)//"),"
         if (rub%viscous > 0.0_wp) line = line//" viscous "//in_words(rub%viscous*merge(2.0_wp, &
-          1.0_wp, rub%turn > 0), damping_unit(model%outputs, rub%slider == 0))//","
+          1.0_wp, rub%turn > 0), damping_unit(model%outputs, merge(angle_nature, length_nature, &
+          rub%slider == 0)))//","
         call append_string(lines, line(:len(line) - 1))
       end associate
     end do

@@ -1,13 +1,15 @@
 !> Words and remarks of `linkage.dat` of linkages that are no four-bars.
 module limits_words
+  use coordinate_columns, only: shown_unit
   use drive_cards, only: moves_along
   use drive_positions, only: shown_crank, unit_of_drive
   use kinds, only: wp
   use limits_study, only: crank_range_t
   use linkage_notes, only: notes_on_linkage
+  use natures, only: all_natures
   use named_coordinates, only: limited_coordinates
   use plan_words, only: group_words
-  use table_columns, only: name_list_t, table_unit
+  use table_columns, only: name_list_t
   use text, only: append_string, string_t, to_string, trimmed_list
   use units, only: unit_t
   use variant_results, only: variant_results_t
@@ -127,7 +129,7 @@ contains
     type(variant_results_t), intent(in) :: variant !! with its mechanism
     type(name_list_t) :: lists(3)
 
-    type(unit_t) :: length
+    type(unit_t) :: measure
     integer :: i
 
     lists(1)%column = "part"
@@ -148,12 +150,13 @@ contains
     end do
     lists(2)%column = "quantity"
     lists(2)%names = trimmed_list(quantity_words)
-    length = table_unit("length", variant%model%outputs)
     lists(3)%column = "unit"
-    allocate (lists(3)%names(3))
-    lists(3)%names(1)%text = "deg"
-    lists(3)%names(2)%text = length%name
-    lists(3)%names(3)%text = "1"
+    allocate (lists(3)%names(0))
+    do i = 1, size(all_natures)
+      measure = shown_unit(all_natures(i), variant%model%outputs)
+      call append_string(lists(3)%names, measure%name)
+    end do
+    call append_string(lists(3)%names, "1")
   end function limits_names
 
 end module limits_words

@@ -10,6 +10,7 @@ module stop_drawings
   use linkages, only: reference_point
   use mechanisms, only: mechanism_t
   use models, only: model_t
+  use natures, only: length_nature
   use pose_types, only: drawn_pose, pose_t
   use pulls, only: deflection
   use text, only: to_string
@@ -48,7 +49,8 @@ contains
             if (depth <= rough) cycle
             words = to_string(depth/degree, 3)//" deg"
           else
-            if (depth <= rough*maxval(linkage%bodies%length) .or. model%stops(i)%turns) cycle
+            if (depth <= rough*maxval(linkage%bodies%length) .or. &
+              model%stops(i)%nature%noun /= length_nature%noun) cycle
             words = length_text(model, depth, 3)
           end if
           call add_warning(diagnostics, model%stops(i)%name, "the drawing is "//words// &
