@@ -11,7 +11,7 @@ module model_reader
   use card_table, only: card_kind_number, card_kinds, card_names
   use cards, only: card_t
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
-  use drive_cards, only: branch_t, kind_of_drive, moves_along, read_branch, read_drive
+  use drive_cards, only: branch_t, kind_of_drive, nature_of_drive, read_branch, read_drive
   use drive_checks, only: check_drives
   use effect_cards, only: effects_axial, effects_static, effects_t, read_effects
   use errors, only: error_of_writing
@@ -41,6 +41,7 @@ module model_reader
     read_process_torque, read_resistance
   use process_checks, only: find_processes
   use name_checks, only: check_names
+  use natures, only: angle_nature, nature_t
   use output_units, only: new_output_units, output_units_t, table_name
   use report_cards, only: read_report
   use report_kinds, only: any_linkage, format_words, four_bars, kind_of_linkage, other_linkages, &
@@ -421,7 +422,8 @@ contains
     type(model_t), intent(inout) :: model !! has its units
 
     integer :: so_far(size(card_kinds)), i, kind, first_drive, first_kind
-    logical :: on_link, of_length
+    type(nature_t) :: nature
+    logical :: on_link
 
     allocate (model%materials(number_of(cards, "MATERIAL")), &
       model%sections(number_of(cards, "SECTION")), model%grounds(number_of(cards, "GROUND")), &
@@ -450,40 +452,41 @@ contains
       on_link = card_kinds(kind)%keyword == "LOAD"
       if (on_link .and. size(cards(i)%words) > 0) on_link = card_named(cards, "LINK", &
         cards(i)%words(1)%text) > 0
-      of_length = card_kinds(kind)%keyword == "LAW"
-      if (of_length) of_length = law_of_length(cards(i), cards)
+      ! Of a law its drive says what its positions are.
+      nature = nature_of_drive(first_kind)
+      if (card_kinds(kind)%keyword == "LAW") nature = nature_of_law(cards(i), cards)
       call read_card(cards(i), trim(card_kinds(kind)%keyword), so_far(kind), &
-        cards(min(first_drive, size(cards))), first_kind, on_link, of_length, cards, reports, &
+        cards(min(first_drive, size(cards))), first_kind, nature, on_link, cards, reports, &
         diagnostics, model)
     end do
     if (size(model%drives) > 0) model%drive = model%drives(1)%subject
   end subroutine read_model_cards
 
-  !> Whether a LAW card is that of a drive that moves a slider or a ram: the first DRIVE that has
-  !! it, or without one the first of all.
-  pure function law_of_length(law, cards) result(of_length)
+  !> What the positions of a LAW card are: those of the first DRIVE that has it, or without one of
+  !! the first of all.
+  pure function nature_of_law(law, cards) result(nature)
     type(card_t), intent(in) :: law
     type(card_t), intent(in) :: cards(:) !! all of the deck
-    logical :: of_length
+    type(nature_t) :: nature
 
     type(token_t) :: word
     integer :: i
     logical :: is_known
 
-    of_length = .false.
+    nature = angle_nature
     is_known = .false.
     do i = 1, size(cards)
       if (.not. same_word(cards(i)%keyword%text, "DRIVE")) cycle
-      if (.not. is_known) of_length = moves_along(kind_of_drive(cards(i), cards))
+      if (.not. is_known) nature = nature_of_drive(kind_of_drive(cards(i), cards))
       is_known = .true.
       if (size(law%words) == 0) return
       if (.not. has_value(cards(i), "law")) cycle
       word = value_of(cards(i), "law")
       if (.not. same_word(word%text, law%words(1)%text)) cycle
-      of_length = moves_along(kind_of_drive(cards(i), cards))
+      nature = nature_of_drive(kind_of_drive(cards(i), cards))
       return
     end do
-  end function law_of_length
+  end function nature_of_law
 
   pure function number_of(cards, keyword) result(number)
     type(card_t), intent(in) :: cards(:)
@@ -499,15 +502,15 @@ contains
   end function number_of
 
   !> Reads one card. UNITS is read before; INCLUDE, SET and VARY are already carried out.
-  subroutine read_card(card, keyword, number, first_drive, first_kind, on_link, of_length, cards, &
+  subroutine read_card(card, keyword, number, first_drive, first_kind, nature, on_link, cards, &
     reports, diagnostics, model)
     type(card_t), intent(in) :: card
     character(len=*), intent(in) :: keyword       !! as in the table of cards
     integer, intent(in) :: number                 !! of the card among those of its keyword, from 1
     type(card_t), intent(in) :: first_drive       !! the first DRIVE card, if there is one
     integer, intent(in) :: first_kind             !! what it drives; 0 without one
+    type(nature_t), intent(in) :: nature          !! of positions on it
     logical, intent(in) :: on_link                !! of LOAD: its first word names a link
-    logical, intent(in) :: of_length              !! of LAW: it is that of a slider or a ram
     type(card_t), intent(in) :: cards(:)          !! all of the deck
     type(report_kind_t), intent(in) :: reports(:) !! (kinds) all that exist
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -518,9 +521,7 @@ contains
     type(torque_card_t) :: torque
     type(process_card_t) :: process
     type(shaft_card_t) :: shaft
-    logical :: by_length
 
-    by_length = moves_along(first_kind)
     associate (system => model%units)
       select case (keyword)
       case ("TITLE")
@@ -597,12 +598,12 @@ contains
           call read_balance(card, system, diagnostics, model%balance)
         end if
       case ("CRANK")
-        call read_crank(card, system, diagnostics, model%crank, by_length)
+        call read_crank(card, system, diagnostics, model%crank, nature)
       case ("SPEED")
         call read_speed(card, system, diagnostics, model%speed, model%acceleration, &
-          model%ramp, model%ramp_word, by_length)
+          model%ramp, model%ramp_word, nature)
       case ("LAW")
-        call read_law(card, system, diagnostics, model%laws(number), of_length)
+        call read_law(card, system, diagnostics, model%laws(number), nature)
       case ("TIME")
         call read_time(card, system, diagnostics, model%time)
       case ("INERTIA")
@@ -618,7 +619,7 @@ contains
       case ("MODES")
         call read_modes(card, diagnostics, model%modes, model%modes_word)
       case ("REPORT")
-        call read_report(card, reports, system, diagnostics, model%reports(number), by_length)
+        call read_report(card, reports, system, diagnostics, model%reports(number), nature)
       end select
     end associate
   end subroutine read_card

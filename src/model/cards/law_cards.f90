@@ -10,11 +10,12 @@ module law_cards
   use expressions, only: evaluate, operand_t
   use kinds, only: wp
   use motion_laws, only: law_words
+  use natures, only: angle_nature, nature_t
   use quantities, only: kind_text, quantity_t
   use time_formulas, only: add_step, step_scaled, time_formula_t
   use tokens, only: token_t
-  use units, only: coherent_factor, coherent_unit, dimension_angle, dimension_length, &
-    dimension_time, unit_system_t, unit_t
+  use units, only: coherent_factor, coherent_unit, dimension_name, dimension_time, unit_system_t, &
+    unit_t
   use value_lists, only: model_value, read_values, value_list_t
   implicit none (type, external)
   private
@@ -48,12 +49,12 @@ contains
   !> Reads a LAW card: `name kind to= start= stop= [from=]`, `name table= [ends=]` or `name formula=
   !! [period=]`. Errors: words or keys that do not fit the card, unreadable values, a segment that
   !! stops before it starts, a formula of something else than positions.
-  pure subroutine read_law(card, system, diagnostics, law, by_length)
+  pure subroutine read_law(card, system, diagnostics, law, nature)
     type(card_t), intent(in) :: card                  !! the LAW card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(law_card_t), intent(out) :: law              !! as read
-    logical, intent(in) :: by_length                  !! it is of a drive of a slider or a ram
+    type(nature_t), intent(in) :: nature              !! of the position of its drive
 
     type(token_t) :: nowhere
     logical :: fine, known_keys
@@ -77,9 +78,9 @@ contains
     else if (has_key(card, "formula")) then
       call refuse_others(card, "formula", ["to   ", "from ", "start", "stop ", "ends "], &
         diagnostics)
-      call read_formula_of_law(card, system, by_length, diagnostics, law)
+      call read_formula_of_law(card, system, nature, diagnostics, law)
     else
-      call read_segment(card, system, by_length, diagnostics, law)
+      call read_segment(card, system, nature, diagnostics, law)
     end if
   end subroutine read_law
 
@@ -102,10 +103,10 @@ contains
   end subroutine refuse_others
 
   !> Reads `formula= [period=]`.
-  pure subroutine read_formula_of_law(card, system, by_length, diagnostics, law)
+  pure subroutine read_formula_of_law(card, system, nature, diagnostics, law)
     type(card_t), intent(in) :: card
     type(unit_system_t), intent(in) :: system
-    logical, intent(in) :: by_length
+    type(nature_t), intent(in) :: nature
     type(diagnostics_t), intent(inout) :: diagnostics
     type(law_card_t), intent(inout) :: law
 
@@ -113,7 +114,7 @@ contains
     type(token_t), allocatable :: words(:)
     type(entry_t) :: entry
     type(quantity_t) :: found
-    type(unit_t) :: metre
+    type(unit_t) :: bare
     real(wp) :: period, factor
     logical :: fine
     integer :: i
@@ -140,14 +141,14 @@ contains
     call evaluate(words, none, system, diagnostics, found, fine, law%formula)
     law%formula%period = period
     if (.not. fine) return
-    if (any(found%dimension /= merge(dimension_length, dimension_angle, by_length))) then
+    if (any(found%dimension /= nature%value)) then
       call add_error(diagnostics, entry%value, "the position of this drive is "// &
-        trim(merge("a length", "an angle", by_length))//", and this is "//kind_text(found, system))
+        dimension_name(nature%value)//", and this is "//kind_text(found, system))
       return
     end if
-    metre = coherent_factor(system, dimension_length)
-    factor = metre%numerator/metre%denominator
-    if (.not. by_length) factor = merge(1.0_wp/degree, 1.0_wp, found%in_radians)
+    bare = coherent_factor(system, nature%value)
+    factor = bare%numerator/bare%denominator
+    if (nature%noun == angle_nature%noun) factor = merge(1.0_wp/degree, 1.0_wp, found%in_radians)
     if (abs(factor - 1.0_wp) > 0.0_wp) call add_step(law%formula, step_scaled, found%step, 0, &
       factor, [0, 0])
     law%name = card%words(1)
@@ -172,10 +173,10 @@ contains
   end subroutine read_table_of_law
 
   !> Reads `kind to= start= stop= [from=]`.
-  pure subroutine read_segment(card, system, by_length, diagnostics, law)
+  pure subroutine read_segment(card, system, nature, diagnostics, law)
     type(card_t), intent(in) :: card
     type(unit_system_t), intent(in) :: system
-    logical, intent(in) :: by_length
+    type(nature_t), intent(in) :: nature
     type(diagnostics_t), intent(inout) :: diagnostics
     type(law_card_t), intent(inout) :: law
 
@@ -192,9 +193,9 @@ contains
       "'period=' is for a formula")
     law%law_word = card%words(2)
     call read_choice(card%words(2), law_words, diagnostics, law%law)
-    call read_position(card, "to", by_length, system, .true., diagnostics, law%to, law%to_word, &
+    call read_position(card, "to", nature, system, .true., diagnostics, law%to, law%to_word, &
       fine(1))
-    call read_position(card, "from", by_length, system, .false., diagnostics, law%from, &
+    call read_position(card, "from", nature, system, .false., diagnostics, law%from, &
       law%from_word, fine(2))
     call read_entry_quantity(card, "start", dimension_time, system, .true., diagnostics, &
       law%start, fine(3))
@@ -210,11 +211,11 @@ contains
   end subroutine read_segment
 
   !> Reads a position of a drive: an angle in degrees to the last digit, or a length.
-  pure subroutine read_position(card, key, by_length, system, required, diagnostics, value, word, &
+  pure subroutine read_position(card, key, nature, system, required, diagnostics, value, word, &
     fine)
     type(card_t), intent(in) :: card
     character(len=*), intent(in) :: key
-    logical, intent(in) :: by_length
+    type(nature_t), intent(in) :: nature
     type(unit_system_t), intent(in) :: system
     logical, intent(in) :: required
     type(diagnostics_t), intent(inout) :: diagnostics
@@ -224,20 +225,18 @@ contains
 
     type(unit_t) :: measure
     real(wp) :: number
-    integer :: dimension(4)
 
     value = 0.0_wp
     fine = .false.
-    dimension = merge(dimension_length, dimension_angle, by_length)
     if (.not. has_value(card, key)) then
       if (required .and. .not. has_key(card, key)) call add_error(diagnostics, card%keyword, &
         "'"//key//"=' is missing; expected the position at the end of this segment")
       return
     end if
     word = value_of(card, key)
-    call read_measure(word, dimension, coherent_unit(system, dimension), diagnostics, number, &
-      measure, fine)
-    if (fine) value = model_value(number, measure, dimension)
+    call read_measure(word, nature%value, coherent_unit(system, nature%value), diagnostics, &
+      number, measure, fine)
+    if (fine) value = model_value(number, measure, nature%value)
   end subroutine read_position
 
   !> Reads `TIME`: instants, listed like crank angles. Errors: as for CRANK.

@@ -6,13 +6,14 @@ module law_checks
   use constants, only: degree
   use cubic_splines, only: ends_at_rest, ends_not_a_knot, ends_periodic, new_cubic_spline
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
-  use drive_cards, only: moves_along
+  use drive_cards, only: nature_of_drive
   use expressions, only: place_in
   use kinds, only: wp
   use law_cards, only: law_card_t, table_free, table_periodic, table_rest
   use models, only: drives_length, model_t, runs_in_time
   use motion_laws, only: law_ramp, motion_segment_t
   use motion_programs, only: motion_program_t, program_values
+  use natures, only: are_alike, nature_t
   use report_cards, only: report_t
   use report_kinds, only: report_kind_t
   use sorting, only: ascending_order
@@ -21,7 +22,7 @@ module law_checks
   use text, only: same_word, string_t, to_string
   use time_formulas, only: find_trouble
   use tokens, only: token_t
-  use units, only: dimension_angle, dimension_length, dimension_time
+  use units, only: dimension_time
   implicit none (type, external)
   private
 
@@ -144,8 +145,8 @@ contains
     call refuse_tables_beside(own_cards, diagnostics, fine)
     if (.not. fine) return
     if (own_cards(1)%table_word%line > 0) then
-      call take_table(cards, own_cards(1), moves_along(model%drives(number)%kind), diagnostics, &
-        model, program, fine)
+      call take_table(cards, own_cards(1), nature_of_drive(model%drives(number)%kind), &
+        diagnostics, model, program, fine)
     else if (allocated(own_cards(1)%formula_words)) then
       call take_formula(own_cards(1), model, diagnostics, program, fine)
     else
@@ -158,16 +159,17 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
+    type(nature_t) :: nature
     integer :: i, k
 
     do i = 2, size(model%drives)
       if (model%drives(i)%law%line == 0) cycle
       do k = 1, i - 1
         if (.not. same_word(model%drives(k)%law%text, model%drives(i)%law%text)) cycle
-        if (moves_along(model%drives(k)%kind) .eqv. moves_along(model%drives(i)%kind)) cycle
-        call add_error(diagnostics, model%drives(i)%law, "the law '"// &
-          model%drives(i)%law%text//"' is one of "//trim(merge("lengths", "angles ", &
-          moves_along(model%drives(k)%kind)))//" already; expected another law", &
+        if (are_alike(nature_of_drive(model%drives([i, k])%kind))) cycle
+        nature = nature_of_drive(model%drives(k)%kind)
+        call add_error(diagnostics, model%drives(i)%law, "the law '"//model%drives(i)%law%text// &
+          "' is one of "//trim(nature%noun)//"s already; expected another law", &
           model%drives(k)%law, "it is that of '"//model%drives(k)%subject%text//"' here")
         exit
       end do
@@ -444,10 +446,10 @@ contains
 
   !> A law by a table of positions over time: a cubic spline. Of a periodic one the position may be
   !! farther on after every period, by as much as the last row differs from the first.
-  pure subroutine take_table(cards, card, of_length, diagnostics, model, program, fine)
+  pure subroutine take_table(cards, card, nature, diagnostics, model, program, fine)
     type(card_t), intent(in) :: cards(:)
     type(law_card_t), intent(in) :: card
-    logical, intent(in) :: of_length !! its positions are lengths
+    type(nature_t), intent(in) :: nature !! of its positions
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
     type(motion_program_t), intent(inout) :: program
@@ -459,7 +461,7 @@ contains
     integer :: dimensions(4, 2), i
 
     dimensions(:, 1) = dimension_time
-    dimensions(:, 2) = merge(dimension_length, dimension_angle, of_length)
+    dimensions(:, 2) = nature%value
     call read_table(cards, card%table_word, "time and position", dimensions, diagnostics, table, &
       fine)
     if (.not. fine) return

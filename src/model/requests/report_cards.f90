@@ -13,14 +13,14 @@ module report_cards
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: fineness, wp
+  use natures, only: nature_t
   use report_kinds, only: any_linkage, default_number, format_words, kind_named, report_kind_t, &
     report_names
   use summary_cards, only: read_summary, summary_card_t
   use text, only: joined, lower_case, same_word, to_string, word_list
   use tokens, only: token_t
   use transient_cards, only: read_transient, transient_card_t
-  use units, only: dimension_angle, dimension_length, dimension_none, dimension_rate, &
-    dimension_time, dimension_velocity, unit_system_t
+  use units, only: dimension_length, dimension_none, dimension_time, unit_system_t
   use value_lists, only: empty_list, find_items, list_steps, read_entry_list, read_entry_pair, &
     read_values, value_list_t
   implicit none (type, external)
@@ -90,21 +90,18 @@ contains
   !! missing or unreadable value, fewer than two `points=`, an `accuracy=` out of range, a motion
   !! whose end or step is not above 0, whose step exceeds its end, or which has more than a
   !! million steps, an unknown quantity, a column named twice.
-  pure subroutine read_report(card, reports, system, diagnostics, report, by_length)
+  pure subroutine read_report(card, reports, system, diagnostics, report, nature)
     type(card_t), intent(in) :: card                  !! the REPORT card
     type(report_kind_t), intent(in) :: reports(:)     !! (kinds) all that exist
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(report_t), intent(out) :: report             !! as read
-    logical, intent(in), optional :: by_length        !! positions are those of a slider or a ram;
-                                                      !! absent: they are angles
+    type(nature_t), intent(in) :: nature              !! of positions
 
     character(len=:), allocatable :: pattern
     integer :: number
-    logical :: fine, known_keys, lengths
+    logical :: fine, known_keys
 
-    lengths = .false.
-    if (present(by_length)) lengths = by_length
     report%keyword = card%keyword
     report%crank = empty_list()
     report%speed = empty_list()
@@ -143,11 +140,11 @@ contains
     if (has_value(card, "ratio_to")) report%ratio_to = value_of(card, "ratio_to")
     select case (report%kind%name)
     case ("shapes")
-      call read_shapes(card, lengths, system, diagnostics, report)
+      call read_shapes(card, nature, system, diagnostics, report)
     case ("geometry")
-      call read_geometry(card, known_keys, lengths, system, diagnostics, report)
+      call read_geometry(card, known_keys, nature, system, diagnostics, report)
     case ("motion")
-      call read_motion(card, known_keys, lengths, system, diagnostics, report)
+      call read_motion(card, known_keys, nature, system, diagnostics, report)
     case ("intervals")
       call read_intervals(card, system, diagnostics, report)
     case ("transient")
@@ -260,9 +257,9 @@ contains
   end subroutine read_frame
 
   !> Reads `REPORT shapes [crank=a,b,...] [speed=...] [points=]`.
-  pure subroutine read_shapes(card, by_length, system, diagnostics, report)
+  pure subroutine read_shapes(card, nature, system, diagnostics, report)
     type(card_t), intent(in) :: card
-    logical, intent(in) :: by_length !! positions are lengths
+    type(nature_t), intent(in) :: nature !! of positions
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
     type(report_t), intent(inout) :: report
@@ -270,20 +267,18 @@ contains
     integer :: points
     logical :: fine
 
-    call read_entry_list(card, "crank", merge(dimension_length, dimension_angle, by_length), &
-      system, diagnostics, report%crank)
-    call read_entry_list(card, "speed", merge(dimension_velocity, dimension_rate, by_length), &
-      system, diagnostics, report%speed)
+    call read_entry_list(card, "crank", nature%value, system, diagnostics, report%crank)
+    call read_entry_list(card, "speed", nature%rate, system, diagnostics, report%speed)
     call read_entry_count(card, "points", 2, diagnostics, points, fine)
     report%points = nint(default_number(report%kind, "points"))
     if (fine) report%points = points
   end subroutine read_shapes
 
   !> Reads `REPORT geometry crank=a,b,...` or `time=a,b,...`.
-  pure subroutine read_geometry(card, known_keys, by_length, system, diagnostics, report)
+  pure subroutine read_geometry(card, known_keys, nature, system, diagnostics, report)
     type(card_t), intent(in) :: card
     logical, intent(in) :: known_keys !! no key is unknown: a missing one is an error
-    logical, intent(in) :: by_length  !! positions are lengths
+    type(nature_t), intent(in) :: nature !! of positions
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
     type(report_t), intent(inout) :: report
@@ -299,16 +294,15 @@ contains
       call add_error(diagnostics, card%keyword, &
         "'crank=' is missing; expected the angles at which the linkage is to be drawn")
     end if
-    call read_entry_list(card, "crank", merge(dimension_length, dimension_angle, by_length), &
-      system, diagnostics, report%crank)
+    call read_entry_list(card, "crank", nature%value, system, diagnostics, report%crank)
   end subroutine read_geometry
 
   !> Reads `REPORT motion crank= [speed=0] end= step= [columns=] [pins=no|yes]
   !! [coordinates=no|yes] [change_points=stop|through]`.
-  pure subroutine read_motion(card, known_keys, by_length, system, diagnostics, report)
+  pure subroutine read_motion(card, known_keys, nature, system, diagnostics, report)
     type(card_t), intent(in) :: card
     logical, intent(in) :: known_keys !! no key is unknown: missing ones are an error
-    logical, intent(in) :: by_length  !! a slider or a ram is driven
+    type(nature_t), intent(in) :: nature !! of positions
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
     type(report_t), intent(inout) :: report
@@ -321,8 +315,7 @@ contains
       call add_error(diagnostics, card%keyword, &
         "'crank=' is missing; expected the angle at which the motion starts")
     end if
-    call read_entry_list(card, "crank", merge(dimension_length, dimension_angle, by_length), &
-      system, diagnostics, angle)
+    call read_entry_list(card, "crank", nature%value, system, diagnostics, angle)
     if (size(angle%value) > 1) then
       call add_error(diagnostics, angle%words(2), &
         "a motion starts at one crank angle, not at several")
@@ -330,12 +323,12 @@ contains
       report%start_angle = angle%value(1)
       report%start_angle_word = angle%words(1)
     end if
-    call read_entry_quantity(card, "speed", merge(dimension_velocity, dimension_rate, by_length), &
-      system, .false., diagnostics, report%start_speed, fine)
+    call read_entry_quantity(card, "speed", nature%rate, system, .false., diagnostics, &
+      report%start_speed, fine)
     if (fine) then
       report%start_speed_word = value_of(card, "speed")
-      call read_values([report%start_speed_word], merge(dimension_velocity, dimension_rate, &
-        by_length), system, "speed", diagnostics, report%speed)
+      call read_values([report%start_speed_word], nature%rate, system, "speed", &
+        diagnostics, report%speed)
     end if
     if (has_value(card, "pins")) then
       call read_choice(value_of(card, "pins"), "no yes", diagnostics, choice)

@@ -7,11 +7,11 @@ module request_cards
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_input, error_t, set_error
   use kinds, only: wp
+  use natures, only: angle_nature, nature_t
   use numbers, only: read_integer
   use text, only: to_string
   use tokens, only: token_t
-  use units, only: dimension_acceleration, dimension_angle, dimension_angular_acceleration, &
-    dimension_length, dimension_rate, dimension_time, dimension_velocity, unit_system_t
+  use units, only: dimension_time, unit_system_t
   use value_lists, only: read_values, value_list_t
   implicit none (type, external)
   private
@@ -57,33 +57,25 @@ contains
   !> Reads `CRANK` angles [deg], or lengths [m]: numbers and ranges `a to b step s`, with or
   !! without one unit at the end for all. Errors: words or keys that do not fit the card, unreadable
   !! values or ranges, a value given twice, to the last digit.
-  pure subroutine read_crank(card, system, diagnostics, crank, by_length)
+  pure subroutine read_crank(card, system, diagnostics, crank, nature)
     type(card_t), intent(in) :: card                  !! the CRANK card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(value_list_t), intent(out) :: crank          !! angles [deg] or lengths [m]
-    logical, intent(in), optional :: by_length        !! positions are those of a slider or a ram;
-                                                      !! absent: they are angles
+    type(nature_t), intent(in) :: nature              !! of positions
 
-    logical :: fine, lengths
+    logical :: fine
 
-    lengths = .false.
-    if (present(by_length)) lengths = by_length
     call check_form(card, diagnostics, fine)
-    if (lengths) then
-      call read_values(card%words, dimension_length, system, "position", diagnostics, crank, &
-        to_all_digits=.true.)
-    else
-      call read_values(card%words, dimension_angle, system, "crank angle", diagnostics, crank, &
-        to_all_digits=.true.)
-    end if
+    call read_values(card%words, nature%value, system, trim(merge("crank angle", "position   ", &
+      nature%noun == angle_nature%noun)), diagnostics, crank, to_all_digits=.true.)
   end subroutine read_crank
 
   !> Reads `SPEED` values [rad/s], listed like crank angles, and `alpha=` [rad/s²], and
   !! `ramp=` [s]; of a slider or a ram in m/s and m/s². Errors: as for CRANK, and an unreadable
   !! `alpha=` or `ramp=`; a ramp of no time.
   pure subroutine read_speed(card, system, diagnostics, speed, acceleration, ramp, ramp_word, &
-    by_length)
+    nature)
     type(card_t), intent(in) :: card                  !! the SPEED card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
@@ -92,22 +84,15 @@ contains
     real(wp), intent(inout) :: ramp                   !! time from rest to the speed [s]; unchanged
                                                       !! without the key
     type(token_t), intent(inout) :: ramp_word         !! its word in the deck; likewise
-    logical, intent(in), optional :: by_length        !! as for `read_crank`
+    type(nature_t), intent(in) :: nature              !! of positions
 
     real(wp) :: time
-    integer :: rate(4), change(4)
     logical :: fine
 
-    rate = dimension_rate
-    change = dimension_angular_acceleration
-    if (present(by_length)) then
-      if (by_length) rate = dimension_velocity
-      if (by_length) change = dimension_acceleration
-    end if
     call check_form(card, diagnostics, fine)
-    call read_values(card%words, rate, system, "speed", diagnostics, speed)
-    call read_entry_quantity(card, "alpha", change, system, .false., diagnostics, acceleration, &
-      fine)
+    call read_values(card%words, nature%rate, system, "speed", diagnostics, speed)
+    call read_entry_quantity(card, "alpha", nature%acceleration, system, .false., diagnostics, &
+      acceleration, fine)
     call read_entry_quantity(card, "ramp", dimension_time, system, .false., diagnostics, time, fine)
     if (.not. fine) return
     call require_positive(card, "ramp", time, diagnostics)
