@@ -18,7 +18,8 @@ module report_types
   use friction_words, only: lock_words
   use kinds, only: wp
   use locked_rows, only: is_locked_at, lock_at
-  use models, only: drives_length, has_law, model_t, report_number
+  use models, only: drives_length, has_law, model_t, nature_of_positions, report_number
+  use natures, only: nature_t, of_effort, of_value
   use report_kinds, only: column_kind_t, columns_of, key_count, report_kind_t, table_kind_t
   use response_notes, only: add_failed_speed, has_response
   use table_columns, only: choose_columns, name_list_t, new_table_layout, table_factor, &
@@ -188,15 +189,21 @@ contains
     call move_alloc(longer, report%tables)
   end subroutine add_table
 
-  !> Makes columns those of the first drive: positions of a slider or a ram are lengths. Of a drive
-  !! with a law a table of positions has the time in its first column.
+  !> Makes columns those of the first drive: positions of a slider or a ram are lengths, and its
+  !! `effort` a force. Of a drive with a law a table of positions has the time in its first column.
   pure subroutine fit_columns(model, columns)
     type(model_t), intent(in) :: model         !! with its drives
     character(len=*), intent(inout) :: columns !! as in `table_kind_t`
 
+    type(nature_t) :: nature
+
+    nature = nature_of_positions(model)
+    call put_for(columns, "crank:deg", "crank:"//nature%words(of_value))
+    do while (index(columns, ":effort") > 0)
+      call put_for(columns, ":effort", ":"//nature%words(of_effort))
+    end do
     if (drives_length(model)) then
       call put_for(columns, "turning_stiffness", "line_stiffness")
-      call put_for(columns, "crank:deg", "crank:length")
       call put_for(columns, "speed:speed", "speed:"//model%speed_unit%name)
     end if
     if (has_law(model) .and. index(columns, "speed:") == 1 .and. index(columns, " time:") == 0 &
@@ -212,7 +219,7 @@ contains
     integer :: at
 
     at = index(text, old)
-    if (at > 0) text = text(:at - 1)//new//trim(text(at + len(old):))
+    if (at > 0) text = text(:at - 1)//trim(new)//trim(text(at + len(old):))
   end subroutine put_for
 
   !> Columns and items of a table.

@@ -5,6 +5,7 @@ module four_bar_motion_format
   use linkage_notes, only: angle_note
   use models, only: model_t
   use motion_study, only: motion_result_t
+  use natures, only: angle_nature, nature_t, of_effort, of_rate
   use report_cards, only: report_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use tables, only: name_cell, real_cells
@@ -42,22 +43,19 @@ contains
 
     columns = always_columns
     if (asked%with_accelerations) columns = columns//acceleration_columns
-    columns = columns//motor_columns(asked, .false.)
+    columns = columns//motor_columns(asked, angle_nature)
     if (asked%with_forces) columns = columns//force_columns
   end function four_bar_columns
 
   !> The columns of the motor and its gear.
-  pure function motor_columns(asked, along) result(columns)
+  pure function motor_columns(asked, nature) result(columns)
     type(report_t), intent(in) :: asked !! REPORT motion
-    logical, intent(in) :: along        !! the motor acts on a slider or a ram
+    type(nature_t), intent(in) :: nature !! of the first drive
     character(len=:), allocatable :: columns
 
     columns = ""
-    if (asked%with_motor .and. along) then
-      columns = " motor_torque:force motor_speed:velocity"
-    else if (asked%with_motor) then
-      columns = " motor_torque:moment motor_speed:rate"
-    end if
+    if (asked%with_motor) columns = " motor_torque:"//trim(nature%words(of_effort))// &
+      " motor_speed:"//trim(nature%words(of_rate))
     if (asked%with_power) then
       columns = columns//" motor_power,gear_loss,load_power:power"
     else if (asked%with_motor) then

@@ -1,17 +1,20 @@
 !> `motion.dat`: forward dynamics, and its lines in the log. The table of a four-bar has a format of
 !! its own, `four_bar_motion_format`.
 module motion_report
-  use drive_cards, only: moves_along
+  use coordinate_columns, only: columns_in, unit_names
+  use drive_cards, only: nature_of_drive
+  use drive_positions, only: shown_crank, unit_of_drive
   use four_bar_motion_format, only: crank_note, forces_note, four_bar_cells, four_bar_columns, &
     four_bar_event, motion_columns, motion_words, motor_columns, motor_values
   use kinds, only: long, wp
   use load_notes, only: potential_note, work_note
-  use models, only: drives_length, is_of_four_bar, model_t, report_number
+  use models, only: is_of_four_bar, model_t, nature_of_positions, report_number
   use motion_coordinates_report, only: motion_coordinates_table_t
   use motion_forces_report, only: motion_forces_table_t
   use motion_pins_report, only: add_early_end, motion_pins_table_t, time_in_table
   use motion_study, only: free_drives, motion_result_t, motion_tolerance, undetermined_message
   use motor_cards, only: is_geared, motor_t
+  use natures, only: are_alike, nature_t, of_acceleration, of_effort, of_rate, of_value
   use plan_words, only: group_names
   use report_cards, only: report_t
   use four_bar_reactions, only: pin_forces_of
@@ -120,26 +123,25 @@ contains
     type(string_t), allocatable, intent(inout) :: notes(:) !! to which lines are added
 
     integer, allocatable :: free(:)
-    type(unit_t) :: of_motor
+    type(nature_t) :: nature
     character(len=:), allocatable :: line
     logical :: mixed
     integer :: k
 
     free = free_drives(model%drives%is_free)
-    mixed = are_mixed(model, free)
+    mixed = .not. are_alike(nature_of_drive(model%drives(free)%kind))
     line = "coordinates:"
     do k = 1, size(free)
       if (k > 1) line = line//","
       line = line//" "//to_string(k)//" drive "//model%drives(free(k))%subject%text
-      if (mixed) line = line//unit_words(model, free(k))
+      nature = nature_of_drive(model%drives(free(k))%kind)
+      if (mixed) line = line//" in "//unit_names(nature%words([of_value, of_rate]), model%outputs, &
+        " and ")
     end do
     call append_string(notes, line//"; angles continue past whole turns")
     line = ""
-    if (mixed) then
-      of_motor = table_unit("moment", model%outputs)
-      if (moves_along(model%drives(1)%kind)) of_motor = table_unit("force", model%outputs)
-      line = " in "//of_motor%name
-    end if
+    nature = nature_of_positions(model)
+    if (mixed) line = " in "//unit_names([nature%words(of_effort)], model%outputs)
     line = "of the motor on the first drive"//line
     call append_string(notes, torque_words(model%motor, line, line)//"; "//potential_note)
   end subroutine append_coordinate_notes
@@ -188,31 +190,6 @@ contains
     if (steps > 0) words = ", or 17 where the equations are stiff"
   end function implicit_words
 
-  !> Whether some coordinates are angles and others lengths.
-  pure function are_mixed(model, free) result(mixed)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: free(:) !! numbers of the free drives
-    logical :: mixed
-
-    mixed = any(moves_along(model%drives(free)%kind)) .and. .not. all(moves_along(model%drives( &
-      free)%kind))
-  end function are_mixed
-
-  !> ` in deg and rad/s`: the units of the position and the rate of a drive.
-  pure function unit_words(model, drive) result(words)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: drive !! number
-    character(len=:), allocatable :: words
-
-    type(unit_t) :: length, velocity
-
-    words = " in deg and "//model%outputs%rate%name
-    if (.not. moves_along(model%drives(drive)%kind)) return
-    length = table_unit("length", model%outputs)
-    velocity = table_unit("velocity", model%outputs)
-    words = " in "//length%name//" and "//velocity%name
-  end function unit_words
-
   !> A column for every drive that is free.
   subroutine plan_motion(variant, plan)
     type(variant_results_t), intent(in) :: variant !! with its results
@@ -236,32 +213,19 @@ contains
     type(model_t), intent(in) :: model !! with REPORT motion and its drives
     character(len=:), allocatable :: columns
 
-    integer, allocatable :: free(:)
+    type(nature_t), allocatable :: natures(:)
 
     if (is_of_four_bar(model, "motion")) then
       columns = four_bar_columns(model%reports(report_number(model, "motion")))
       return
     end if
-    free = free_drives(model%drives%is_free)
-    if (all(moves_along(model%drives(free)%kind))) then
-      columns = "time:time position*:length rate*:velocity torque:force "
-    else if (any(moves_along(model%drives(free)%kind))) then
-      columns = "time:time position*,rate*,torque:see_head "
-    else
-      columns = "time:time position*:deg rate*:rate torque:moment "
-    end if
-    columns = columns//"kinetic,potential,work,energy_error:energy"
+    natures = nature_of_drive(model%drives(free_drives(model%drives%is_free))%kind)
+    columns = "time:time "//columns_in(natures, "position* rate* torque", [of_value, of_rate, &
+      of_effort])//" kinetic,potential,work,energy_error:energy"
     associate (asked => model%reports(report_number(model, "motion")))
-      if (asked%with_accelerations) then
-        if (all(moves_along(model%drives(free)%kind))) then
-          columns = columns//" acceleration*:acceleration"
-        else if (any(moves_along(model%drives(free)%kind))) then
-          columns = columns//" acceleration*:see_head"
-        else
-          columns = columns//" acceleration*:rad/s2"
-        end if
-      end if
-      columns = columns//motor_columns(asked, moves_along(model%drives(1)%kind))
+      if (asked%with_accelerations) columns = columns//" "//columns_in(natures, &
+        "acceleration*", [of_acceleration])
+      columns = columns//motor_columns(asked, nature_of_positions(model))
     end associate
   end function motion_columns_of
 
@@ -333,32 +297,28 @@ contains
 
     real(wp), allocatable :: position(:), rate(:), extra(:)
     real(wp) :: torque
-    integer, allocatable :: free(:)
+    type(nature_t), allocatable :: natures(:)
+    type(nature_t) :: of_motor
     integer :: k
 
-    free = free_drives(model%drives%is_free)
+    natures = nature_of_drive(model%drives(free_drives(model%drives%is_free))%kind)
     associate (sample => motion%samples(instant))
       position = sample%position
       rate = sample%rate
       torque = sample%torque
       allocate (extra(0))
-      if (asked%with_accelerations) extra = motion%acceleration(:size(free), instant)
-      if (are_mixed(model, free)) then
-        do k = 1, size(free)
-          if (moves_along(model%drives(free(k))%kind)) then
-            position(k) = from_si(position(k), table_factor("length", model%outputs))
-            rate(k) = from_si(rate(k), table_factor("velocity", model%outputs))
+      if (asked%with_accelerations) extra = motion%acceleration(:size(natures), instant)
+      if (.not. are_alike(natures)) then
+        associate (outputs => model%outputs)
+          do k = 1, size(natures)
+            position(k) = from_si(position(k), table_factor(natures(k)%words(of_value), outputs))
+            rate(k) = from_si(rate(k), table_factor(natures(k)%words(of_rate), outputs))
             if (asked%with_accelerations) extra(k) = from_si(extra(k), &
-              table_factor("acceleration", model%outputs))
-          else
-            rate(k) = from_si(rate(k), model%outputs%rate)
-          end if
-        end do
-        if (moves_along(model%drives(1)%kind)) then
-          torque = from_si(torque, table_factor("force", model%outputs))
-        else
-          torque = from_si(torque, table_factor("moment", model%outputs))
-        end if
+              table_factor(natures(k)%words(of_acceleration), outputs))
+          end do
+          of_motor = nature_of_positions(model)
+          torque = from_si(torque, table_factor(of_motor%words(of_effort), outputs))
+        end associate
       end if
       extra = [extra, motor_values(asked, motion, instant)]
       row = cells(layout, 2, [position, rate, torque, sample%kinetic, sample%potential, &
@@ -398,14 +358,9 @@ contains
     integer, intent(in) :: number !! of the passage
     character(len=:), allocatable :: words
 
-    type(unit_t) :: length
-
     associate (mechanism => variant%mechanism, passage => variant%found%motion%passages(number))
-      words = to_string(passage%position, 12)//" deg"
-      length = table_unit("length", variant%model%outputs)
-      if (drives_length(variant%model)) words = to_string(from_si(passage%position, length), 12)// &
-        " "//length%name
-      words = "motion: at t="//to_string(passage%time, 12)//" s, the first drive at "//words
+      words = "motion: at t="//to_string(passage%time, 12)//" s, the first drive at "// &
+        to_string(shown_crank(variant, passage%position), 12)//" "//unit_of_drive(variant)
       if (passage%group == 0) then
         words = words//", the linkage goes straight through a change point"
         return

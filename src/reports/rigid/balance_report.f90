@@ -10,10 +10,9 @@ module balance_report
   use joints_report, only: drives_notes
   use kinds, only: wp
   use load_notes, only: acceleration_note
-  use models, only: drives_length, model_t
   use position_rows, only: add_position_row
   use report_kinds, only: four_bars, other_linkages, report_kind_t
-  use report_types, only: add_table, fit_columns, has_to_look_back, report_record_t, &
+  use report_types, only: add_table, has_to_look_back, report_record_t, &
     state_table_t, table_plan_t, whole_table_t
   use table_columns, only: cells, column_width, name_list_t, table_factor, table_layout_t, &
     table_unit
@@ -50,7 +49,6 @@ module balance_report
     procedure, nopass :: looks_back => has_to_look_back
     procedure, nopass :: find_notes => hung_balance_notes
     procedure, nopass :: plan => plan_hung_balance
-    procedure, nopass :: fit => fit_hung_balance
     procedure, nopass :: add_position => add_balance
   end type hung_balance_table_t
 
@@ -88,8 +86,8 @@ contains
       studies="joints balance harmonics", positions=.true., masses=.true., &
       linkages=other_linkages)
     call add_table(report, hung_balance_table_t(), "balance", "speed:speed crank:deg xG,"// &
-      "yG:length shaking_x,shaking_y:force shaking_moment,torque:moment balanced_x?,"// &
-      "balanced_y?:force balanced_moment?,balanced_torque?:moment")
+      "yG:length shaking_x,shaking_y:force shaking_moment:moment torque:effort balanced_x?,"// &
+      "balanced_y?:force balanced_moment?:moment balanced_torque?:effort")
     call add_table(report, hung_harmonics_table_t(), "harmonics", "speed:speed linkage,"// &
       "quantity:name largest,rms,mean:- h*:- phase*:deg", words=harmonics_words(), &
       numbered=highest_harmonic)
@@ -370,17 +368,6 @@ contains
 
     plan%has_optional = has_balanced(variant%found%balance)
   end subroutine plan_hung_balance
-
-  !> What turns a crank is a force on a slider.
-  pure subroutine fit_hung_balance(model, columns)
-    type(model_t), intent(in) :: model         !! with its drives
-    character(len=*), intent(inout) :: columns !! of the record
-
-    if (drives_length(model)) columns = "speed:speed crank:deg xG,yG:length "// &
-      "shaking_x,shaking_y:force shaking_moment:moment torque:force "// &
-      "balanced_x?,balanced_y?:force balanced_moment?:moment balanced_torque?:force"
-    call fit_columns(model, columns)
-  end subroutine fit_hung_balance
 
   !> Of linkages that are no four-bars: drives and loads, what is balanced.
   subroutine hung_balance_notes(variant, notes)

@@ -3,9 +3,8 @@
 module equilibrium_report
   use kinds, only: wp
   use load_notes, only: append_load_notes, potential_note
-  use models, only: drives_length, model_t
   use report_kinds, only: report_kind_t
-  use report_types, only: add_table, fit_columns, report_record_t, whole_table_t
+  use report_types, only: add_table, report_record_t, whole_table_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
@@ -31,7 +30,6 @@ module equilibrium_report
   type, extends(whole_table_t) :: potential_table_t
   contains
     procedure, nopass :: find_notes => potential_notes
-    procedure, nopass :: fit => fit_potential
     procedure, nopass :: add_all => add_potential
   end type potential_table_t
 
@@ -46,7 +44,7 @@ contains
     call add_table(report, equilibrium_table_t(), "equilibrium", "crank:deg verdict:name "// &
       "potential:energy stiffness:turning_stiffness frequency:Hz error:-", &
       words=equilibrium_words())
-    call add_table(report, potential_table_t(), "potential", "crank:deg torque:moment "// &
+    call add_table(report, potential_table_t(), "potential", "crank:deg torque:effort "// &
       "potential:energy")
   end subroutine describe_equilibrium
 
@@ -135,14 +133,5 @@ contains
       end do
     end associate
   end subroutine add_equilibria
-
-  !> What turns a crank is a force on a slider.
-  pure subroutine fit_potential(model, columns)
-    type(model_t), intent(in) :: model         !! with its drives
-    character(len=*), intent(inout) :: columns !! of the record
-
-    if (drives_length(model)) columns = "crank:deg torque:force potential:energy"
-    call fit_columns(model, columns)
-  end subroutine fit_potential
 
 end module equilibrium_report

@@ -7,9 +7,8 @@ module friction_report
   use joints_report, only: plan_joints
   use kinds, only: wp
   use load_notes, only: acceleration_note, append_load_notes
-  use models, only: drives_length, model_t
   use report_kinds, only: report_kind_t
-  use report_types, only: add_table, fit_columns, report_record_t, rest_table_t, state_table_t
+  use report_types, only: add_table, report_record_t, rest_table_t, state_table_t
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use table_rows, only: add_row, rows_t
   use tables, only: name_cell
@@ -38,7 +37,6 @@ module friction_report
   type, extends(rest_table_t) :: holding_table_t
   contains
     procedure, nopass :: find_notes => holding_notes
-    procedure, nopass :: fit => fit_holding
     procedure, nopass :: add_at_rest => add_holding
   end type holding_table_t
 
@@ -52,7 +50,7 @@ contains
       "self-locking", studies="friction", positions=.true., masses=.true., numbers=82)
     call add_table(report, friction_table_t(), "friction", "speed:speed crank:deg pin,"// &
       "link:name force:force sliding:velocity friction:force moment:moment lost:power")
-    call add_table(report, holding_table_t(), "holding", "crank:deg forward,backward:moment "// &
+    call add_table(report, holding_table_t(), "holding", "crank:deg forward,backward:effort "// &
       "verdict:name", words=holding_words())
   end subroutine describe_friction
 
@@ -202,14 +200,5 @@ contains
       end associate
     end associate
   end function verdict_at
-
-  !> What holds a crank is a force on a slider.
-  pure subroutine fit_holding(model, columns)
-    type(model_t), intent(in) :: model         !! with its drives
-    character(len=*), intent(inout) :: columns !! of the record
-
-    if (drives_length(model)) columns = "crank:deg forward,backward:force verdict:name"
-    call fit_columns(model, columns)
-  end subroutine fit_holding
 
 end module friction_report

@@ -2,10 +2,10 @@
 module study_findings
   use drive_motions, only: first_position
   use errors, only: error_t, outcome_t
+  use coordinate_columns, only: shown_unit
   use kinds, only: wp
-  use models, only: drives_length, has_law, model_t, speed_in_words
+  use models, only: has_law, model_t, nature_of_positions, speed_in_words
   use run_findings, only: add_failure, add_warning_of_run, failure_t, findings_t
-  use table_columns, only: table_unit
   use text, only: to_string
   use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
@@ -140,8 +140,7 @@ contains
     type(model_t), intent(in) :: model !! with its drives
     type(unit_t) :: unit
 
-    unit%name = "deg"
-    if (drives_length(model)) unit = table_unit("length", model%outputs)
+    unit = shown_unit(nature_of_positions(model), model%outputs)
   end function unit_of_positions
 
 end module study_findings
