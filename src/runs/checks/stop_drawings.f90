@@ -2,18 +2,17 @@
 !! than a machine is drawn in its stop.
 module stop_drawings
   use applied_load_types, only: is_torsional
-  use constants, only: degree
   use coordinates, only: coordinate_value
-  use deck_lengths, only: length_text
   use diagnostics, only: add_warning, diagnostics_t
   use kinds, only: wp
   use linkages, only: reference_point
   use mechanisms, only: mechanism_t
   use models, only: model_t
-  use natures, only: length_nature
+  use natures, only: angle_nature
   use pose_types, only: drawn_pose, pose_t
   use pulls, only: deflection
   use text, only: to_string
+  use units, only: coherent_unit, from_si, unit_t
   implicit none (type, external)
   private
 
@@ -32,7 +31,7 @@ contains
 
     type(pose_t) :: pose
     real(wp) :: depth
-    character(len=:), allocatable :: words
+    type(unit_t) :: measure
     integer :: i
 
     if (size(model%stops) == 0) return
@@ -41,20 +40,17 @@ contains
       if (.not. all(linkage%drawing%is_drawn)) return
       pose = drawn_pose(linkage, reference_point(linkage))
       do i = 1, size(model%stops)
-        associate (load => linkage%loads(size(linkage%loads) - size(model%stops) + i))
+        associate (load => linkage%loads(size(linkage%loads) - size(model%stops) + i), &
+            nature => model%stops(i)%nature)
           ! Of a drawing nobody knows where drives are.
           if (load%along%drive > 0) cycle
           depth = load%side*deflection(load, coordinate_value(linkage, pose, load%along))
-          if (is_torsional(load)) then
-            if (depth <= rough) cycle
-            words = to_string(depth/degree, 3)//" deg"
-          else
-            if (depth <= rough*maxval(linkage%bodies%length) .or. &
-              model%stops(i)%nature%noun /= length_nature%noun) cycle
-            words = length_text(model, depth, 3)
-          end if
-          call add_warning(diagnostics, model%stops(i)%name, "the drawing is "//words// &
-            " inside the stop '"//model%stops(i)%name%text//"'")
+          if (depth <= rough*maxval(linkage%bodies%length)**nature%value(1)) cycle
+          if (nature%noun == angle_nature%noun .and. .not. is_torsional(load)) cycle
+          measure = coherent_unit(model%units, nature%value)
+          call add_warning(diagnostics, model%stops(i)%name, "the drawing is "// &
+            to_string(from_si(depth, measure), 3)//" "//measure%name//" inside the stop '"// &
+            model%stops(i)%name%text//"'")
         end associate
       end do
     end associate
