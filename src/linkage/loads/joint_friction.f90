@@ -1,12 +1,11 @@
 !> Friction in pins and sliders: the forces in the joints that it depends on, and that it changes.
 module joint_friction
-  use actuated_forces, only: find_actuated_forces
+  use actuated_forces, only: find_actuated_forces, statics_factors_t
   use applied_loads, only: add_effort, generalised_force
   use coordinate_types, only: coordinate_t, is_angle
   use coordinates, only: evaluate, evaluated_rate, evaluated_t, slider_coordinate
   use dense_factor, only: dense_factor_t, factorize, solve
   use ground_loads, only: effort_on_ground
-  use group_factors, only: group_factors_t
   use inertia_loads, only: load_t
   use joint_forces, only: add_scaled, force_at_pin, joint_forces_t
   use joint_friction_types, only: joint_friction_t
@@ -96,8 +95,8 @@ contains
     type(joint_forces_t), intent(in), optional :: of_units(:) !! (frictions) forces in the joints
                                                  !! that balance an effort of one in each; absent:
                                                  !! statics tells them
-    type(group_factors_t), intent(in), optional :: factors(:) !! of `factorize_groups` at this pose;
-                                                 !! absent: they are found
+    type(statics_factors_t), intent(in), optional :: factors !! of `factorize_statics` at this pose,
+                                                 !! for statics
 
     type(load_t) :: body_load(size(linkage%bodies))
     real(wp) :: pin_load(2, size(linkage%is_ground))
@@ -116,7 +115,7 @@ contains
         joints = sum_of(of_units, viscous)
       else
         call put_friction(linkage, pose, friction%rubbing, viscous, body_load, pin_load)
-        joints = find_actuated_forces(linkage, pose, body_load, pin_load, factors)
+        joints = find_actuated_forces(linkage, pose, factors, body_load, pin_load)
       end if
       do k = 1, size(rubs)
         base(:, k) = force_in_joint(linkage, joints, rubs(k))
@@ -130,7 +129,7 @@ contains
         else
           call put_friction(linkage, pose, friction%rubbing, merge(coulomb, 0.0_wp, [(i == j, &
             i=1, size(rubs))]), body_load, pin_load)
-          joints = find_actuated_forces(linkage, pose, body_load, pin_load, factors)
+          joints = find_actuated_forces(linkage, pose, factors, body_load, pin_load)
         end if
         do k = 1, size(rubs)
           influence(:, k, j) = force_in_joint(linkage, joints, rubs(k))
@@ -142,8 +141,8 @@ contains
     if (present(of_units)) then
       friction%joints = sum_of(of_units, friction%effort)
     else
-      friction%joints = find_actuated_forces(linkage, pose, friction%body_load, friction%pin_load, &
-        factors)
+      friction%joints = find_actuated_forces(linkage, pose, factors, friction%body_load, &
+        friction%pin_load)
     end if
     friction%load = -generalised_force(linkage, coefficients, friction%body_load, &
       friction%pin_load)

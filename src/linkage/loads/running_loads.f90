@@ -99,8 +99,8 @@ contains
     if (present(divided)) then
       running%joints = divided%moving
     else
-      running%joints = find_actuated_forces(linkage, pose, running%body_load, running%pin_load, &
-        unit%factors)
+      running%joints = find_actuated_forces(linkage, pose, unit%factors, running%body_load, &
+        running%pin_load)
     end if
     running%load = -generalised_force(linkage, coefficients, running%body_load, running%pin_load)
     if (.not. has_friction(linkage)) return
@@ -127,8 +127,8 @@ contains
     if (present(divided)) then
       call add_scaled(running%joints, 1.0_wp, running%friction%joints)
     else
-      running%joints = find_actuated_forces(linkage, pose, running%body_load, running%pin_load, &
-        unit%factors)
+      running%joints = find_actuated_forces(linkage, pose, unit%factors, running%body_load, &
+        running%pin_load)
     end if
     running%joints%friction = running%friction%effort
   end subroutine find_running_loads

@@ -11,7 +11,7 @@ module actuated_forces
   use dense_factor, only: dense_factor_t, factorize, least_singular_value, solve_transposed
   use errors, only: error_of_numerics, error_t, set_error
   use ground_loads, only: effort_on_ground
-  use group_factors, only: group_factors_t
+  use group_factors, only: factorize_groups, group_factors_t
   use inertia_loads, only: load_t
   use joint_forces, only: add_force, add_scaled, find_joint_forces, joint_forces_t
   use kinds, only: wp
@@ -20,7 +20,8 @@ module actuated_forces
   implicit none (type, external)
   private
 
-  public :: find_actuated_forces, find_actuator_fault, actuator_sense, actuators_on_ground
+  public :: statics_factors_t, factorize_statics, find_actuated_forces
+  public :: find_actuator_fault, actuator_sense, actuators_on_ground
 
   !> Efforts of one along all actuators at a pose.
   type :: actuation_t
@@ -32,35 +33,54 @@ module actuated_forces
     logical :: holds = .false.                 !! J is regular
   end type actuation_t
 
+  !> What the forces of all loads at a pose have in common.
+  type :: statics_factors_t
+    type(group_factors_t), allocatable :: groups(:) !! of `factorize_groups`
+    type(actuation_t), allocatable :: actuation     !! not allocated: the drives give the efforts
+  end type statics_factors_t
+
   !> Below this, in units of the size of the linkage and radians, J is singular.
   real(wp), parameter :: least_motion = 1.0e-9_wp
 
 contains
 
+  !> What is found once for all loads at a pose.
+  pure subroutine factorize_statics(linkage, pose, factors)
+    type(linkage_t), intent(in) :: linkage          !! its groups and actuators
+    type(pose_t), intent(in) :: pose                !! away from dead points
+    type(statics_factors_t), intent(out) :: factors
+
+    call factorize_groups(linkage, pose, factors%groups)
+    if (.not. is_actuated(linkage)) return
+    allocate (factors%actuation)
+    call find_actuation(linkage, pose, factors%groups, factors%actuation)
+  end subroutine factorize_statics
+
   !> As `find_joint_forces`, with the efforts of actuators, where there are any, in place of those
   !! of the drives; `torque` remains that of the first drive that they replace. Where they cannot
   !! hold the linkage, which `find_actuator_fault` tells, the drives do.
-  pure function find_actuated_forces(linkage, pose, body_load, pin_load, factors) result(forces)
+  pure function find_actuated_forces(linkage, pose, factors, body_load, pin_load) result(forces)
     type(linkage_t), intent(in) :: linkage   !! its actuators
     type(pose_t), intent(in) :: pose         !! away from dead points
+    type(statics_factors_t), intent(in) :: factors !! of `factorize_statics` there
     type(load_t), intent(in) :: body_load(:) !! (bodies) all loads but pin forces
     real(wp), intent(in) :: pin_load(:, :)   !! (2, pins) loads on the pins [N]
-    type(group_factors_t), intent(in), optional :: factors(:) !! as of `find_joint_forces`
     type(joint_forces_t) :: forces
 
-    type(actuation_t) :: actuation
     real(wp) :: torque, effort(size(linkage%drives))
     integer :: a
 
-    forces = find_joint_forces(linkage, pose, body_load, pin_load, factors)
-    if (.not. is_actuated(linkage)) return
-    call find_actuation(linkage, pose, actuation, factors)
-    if (.not. actuation%holds) return
-    torque = forces%torque
-    effort = solve_transposed(actuation%factor, actuation%drive_scale*forces%drive)/actuation%scale
-    do a = 1, size(effort)
-      call add_scaled(forces, effort(a), actuation%of_one(a))
-    end do
+    forces = find_joint_forces(linkage, pose, body_load, pin_load, factors%groups)
+    if (.not. allocated(factors%actuation)) return
+    associate (actuation => factors%actuation)
+      if (.not. actuation%holds) return
+      torque = forces%torque
+      effort = solve_transposed(actuation%factor, actuation%drive_scale*forces%drive)/ &
+        actuation%scale
+      do a = 1, size(effort)
+        call add_scaled(forces, effort(a), actuation%of_one(a))
+      end do
+    end associate
     forces%torque = torque
     forces%drive = effort
   end function find_actuated_forces
@@ -72,26 +92,26 @@ contains
     type(pose_t), intent(in) :: pose       !! away from dead points
     type(error_t), allocatable, intent(out) :: error
 
-    type(actuation_t) :: actuation
+    type(statics_factors_t) :: factors
     character(len=:), allocatable :: names
     integer :: a
 
     if (.not. is_actuated(linkage)) return
-    call find_actuation(linkage, pose, actuation)
-    if (actuation%holds) return
+    call factorize_statics(linkage, pose, factors)
+    if (factors%actuation%holds) return
     names = ""
     do a = 1, size(linkage%actuators)
-      if (.not. all(actuation%moves) .and. actuation%moves(a)) cycle
+      if (.not. all(factors%actuation%moves) .and. factors%actuation%moves(a)) cycle
       if (len(names) > 0) names = names//", "
       names = names//"'"//linkage%actuators(a)%name//"'"
     end do
-    if (all(actuation%moves)) then
+    if (all(factors%actuation%moves)) then
       call set_error(error, error_of_numerics, names//" cannot hold the linkage: it can move "// &
         "there while they do not")
     else
       call set_error(error, error_of_numerics, names//" cannot hold the linkage: "// &
         trim(merge("it does not move  ", "they do not move  ", &
-        count(.not. actuation%moves) == 1))//" there")
+        count(.not. factors%actuation%moves) == 1))//" there")
     end if
   end subroutine find_actuator_fault
 
@@ -102,19 +122,19 @@ contains
     type(pose_t), intent(in) :: pose       !! away from dead points
     real(wp) :: sense
 
-    type(actuation_t) :: actuation
+    type(statics_factors_t) :: factors
 
-    call find_actuation(linkage, pose, actuation)
+    call factorize_statics(linkage, pose, factors)
     sense = 0.0_wp
-    if (actuation%holds) sense = sign(1.0_wp, actuation%factor%determinant)
+    if (factors%actuation%holds) sense = sign(1.0_wp, factors%actuation%factor%determinant)
   end function actuator_sense
 
   !> Efforts of one, and J.
-  pure subroutine find_actuation(linkage, pose, actuation, factors)
+  pure subroutine find_actuation(linkage, pose, groups, actuation)
     type(linkage_t), intent(in) :: linkage !! with actuators
     type(pose_t), intent(in) :: pose
+    type(group_factors_t), allocatable, intent(in) :: groups(:)
     type(actuation_t), intent(out) :: actuation
-    type(group_factors_t), intent(in), optional :: factors(:)
 
     real(wp) :: jacobian(size(linkage%actuators), size(linkage%drives)), length
     integer :: a
@@ -127,7 +147,7 @@ contains
     do a = 1, size(linkage%actuators)
       associate (coordinate => linkage%coordinates(linkage%actuators(a)%coordinate))
         if (is_turning(linkage, coordinate)) actuation%scale(a) = 1.0_wp
-        call balance_one(linkage, pose, coordinate, actuation%of_one(a), factors)
+        call balance_one(linkage, pose, coordinate, groups, actuation%of_one(a))
       end associate
       jacobian(a, :) = -actuation%of_one(a)%drive*actuation%drive_scale/actuation%scale(a)
     end do
@@ -139,12 +159,12 @@ contains
   end subroutine find_actuation
 
   !> What balances an effort of 1 along a coordinate.
-  pure subroutine balance_one(linkage, pose, coordinate, forces, factors)
+  pure subroutine balance_one(linkage, pose, coordinate, groups, forces)
     type(linkage_t), intent(in) :: linkage
     type(pose_t), intent(in) :: pose
     type(coordinate_t), intent(in) :: coordinate
+    type(group_factors_t), allocatable, intent(in) :: groups(:)
     type(joint_forces_t), intent(out) :: forces
-    type(group_factors_t), intent(in), optional :: factors(:)
 
     type(evaluated_t) :: evaluated
     type(load_t) :: body_load(size(linkage%bodies))
@@ -153,7 +173,7 @@ contains
     pin_load = 0.0_wp
     call evaluate(linkage, pose, coordinate, evaluated)
     call add_effort(linkage, pose, coordinate, evaluated, 1.0_wp, body_load, pin_load)
-    forces = find_joint_forces(linkage, pose, body_load, pin_load, factors)
+    forces = find_joint_forces(linkage, pose, body_load, pin_load, groups)
     call press_rams(linkage, pose, coordinate, 1.0_wp, forces)
   end subroutine balance_one
 

@@ -1,7 +1,6 @@
 !> Inverse dynamics: forces in all pins, torque of the drive, shaking force and moment.
 module reactions
-  use actuated_forces, only: find_actuated_forces
-  use group_factors, only: factorize_groups, group_factors_t
+  use actuated_forces, only: factorize_statics, find_actuated_forces, statics_factors_t
   use inertia_loads, only: load_t
   use joint_forces, only: joint_forces_t
   use kinds, only: wp
@@ -27,8 +26,7 @@ module reactions
   !! constant loads.
   type :: unit_reactions_t
     type(reactions_t) :: of_case(case_count)
-    type(group_factors_t), allocatable :: factors(:) !! of `factorize_groups` at the pose, for other
-                                                     !! loads there
+    type(statics_factors_t) :: factors !! of the pose, for other loads there
   end type unit_reactions_t
 
 contains
@@ -48,11 +46,11 @@ contains
     integer :: i
 
     loads = find_unit_loads(linkage, pose, coefficients)
-    call factorize_groups(linkage, pose, unit%factors)
+    call factorize_statics(linkage, pose, unit%factors)
     do i = 1, case_count
       call find_case_loads(linkage, elements, pose, loads%of_case(i), body_loads, pin_loads)
-      unit%of_case(i)%joints = find_actuated_forces(linkage, pose, body_loads, pin_loads, &
-        unit%factors)
+      unit%of_case(i)%joints = find_actuated_forces(linkage, pose, unit%factors, body_loads, &
+        pin_loads)
       ! Gravity and external loads are no inertia forces: they do not shake the ground.
       if (i < case_count) call add_up(linkage, pose, body_loads, pin_loads, unit%of_case(i))
     end do
