@@ -21,7 +21,7 @@ LONGEST = 7200  # seconds
 # Title and command; {program} is the release build, {threads} the number of processors.
 FAMILIES = [
     ("the rest of make check", "tests/support/check.py --slow {unit_tests}"),
-    ("threads", "tests/stress/run_threads.py --runs 200 --program {program}"),
+    ("threads", "tests/stress/run_threads.py --runs 200 --seconds 5 --program {program}"),
     ("fuzz", "tests/support/fuzz.py 3000 1"),
     ("fuzz, 256 kB of stack", "tests/support/fuzz.py --release 20000 2"),
     ("large decks, 256 kB of stack", "tests/stress/small_stack.py --program {program}"),
