@@ -2,14 +2,16 @@
 !! or in time.
 module drive_values
   use constants, only: degree
+  use coordinate_types, only: is_sum
   use kinds, only: wp
-  use linkages, only: gives_angle, linkage_t, turned
+  use linkages, only: drive_of_coordinate, gives_angle, linkage_t, turned
   use motion_programs, only: program_values
   use pose_types, only: pose_t
   implicit none (type, external)
   private
 
-  public :: drive_value, drive_rate, find_rates_of_drives, drive_direction, direction_at
+  public :: drive_value, drive_weight, drive_rate, find_rates_of_drives, drive_direction, &
+    direction_at
 
 contains
 
@@ -30,6 +32,20 @@ contains
       value = linkage%drives(number)%ratio*crank + linkage%drives(number)%phase
     end if
   end function drive_value
+
+  !> How far the coordinate of a drive goes where lengths or angles of the linkage change by 1: a
+  !! sum has weights of any size.
+  pure function drive_weight(linkage, number) result(weight)
+    type(linkage_t), intent(in) :: linkage !! its drives and coordinates
+    integer, intent(in) :: number          !! of the drive, from 1
+    real(wp) :: weight
+
+    weight = 1.0_wp
+    if (linkage%drives(number)%kind /= drive_of_coordinate) return
+    associate (coordinate => linkage%coordinates(linkage%drives(number)%coordinate))
+      if (coordinate%kind == is_sum) weight = sum(abs(coordinate%weight))
+    end associate
+  end function drive_weight
 
   !> Position, rate and acceleration of a drive of a linkage that runs in time.
   pure function motion_in_time(linkage, number, time) result(motion)

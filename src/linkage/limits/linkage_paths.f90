@@ -8,6 +8,7 @@ module linkage_paths
   use bridges, only: cross_bridge
   use change_points, only: find_bridge, is_near_change, near_change
   use constants, only: degree
+  use drive_values, only: drive_weight
   use errors, only: error_of_dead_point, error_of_input, error_t, set_error
   use kinds, only: wp
   use linkages, only: bridge_t, rule_branch, rule_stop, rule_through, drive_of_angle, gives_angle, &
@@ -406,12 +407,13 @@ contains
     type(bridge_t) :: bridge
     type(approach_t) :: approach
     type(pose_t) :: pose
-    real(wp) :: step, most_step, goal, unit
+    real(wp) :: step, most_step, goal, unit, reach
     integer :: halvings, stations, turns
     logical :: is_angle, is_close, is_good, is_free, is_ahead, found
 
     is_angle = follows_angle(linkage)
-    most_step = length_step*span
+    reach = 10.0_wp*span*drive_weight(linkage, 1)
+    most_step = length_step*span*drive_weight(linkage, 1)
     if (is_angle) most_step = angle_step
     unit = 1.0_wp
     if (is_angle) unit = degree
@@ -438,6 +440,8 @@ contains
         ! A station stands exactly at every whole turn.
         if (sense*(goal - here%crank - step) < 1.0e-6_wp*most_step) step = goal - here%crank
       end if
+      ! Beside a coordinate that is too large the step is nothing.
+      if (.not. abs(here%crank + step - here%crank) > 0.0_wp) exit
       call take_step(linkage, here, step, unit, next, is_good)
       is_free = is_good
       if (is_good) is_free = .not. is_near_change(next%pose%sine, usual, near_change)
@@ -484,7 +488,7 @@ contains
         turns = turns + 1
         goal = first%crank + sense*turns*360.0_wp
       else
-        if (abs(here%crank - first%crank) > 10.0_wp*span) exit
+        if (abs(here%crank - first%crank) > reach) exit
       end if
     end do
     if (approach%is_found) then

@@ -1,6 +1,6 @@
 !> Steps of the time along the way of a linkage that runs in time.
 module time_steps
-  use drive_values, only: drive_value
+  use drive_values, only: drive_value, drive_weight
   use kinds, only: wp
   use linkages, only: gives_angle, linkage_t
   use motion_programs, only: program_breaks
@@ -21,6 +21,7 @@ contains
     real(wp) :: step
 
     integer, parameter :: samples = 8
+    real(wp) :: far
     integer :: d, k
     logical :: is_far
 
@@ -30,11 +31,12 @@ contains
       return
     end if
     do d = 1, size(linkage%drives)
+      far = merge(angle, length, gives_angle(linkage%drives(d)))*drive_weight(linkage, d)
       do
         is_far = .false.
         do k = 1, samples
           is_far = is_far .or. abs(drive_value(linkage, d, time + sense*step*k/samples) - &
-            drive_value(linkage, d, time)) > merge(angle, length, gives_angle(linkage%drives(d)))
+            drive_value(linkage, d, time)) > far
         end do
         if (.not. is_far .or. step <= spacing(time)) exit
         step = 0.5_wp*step
