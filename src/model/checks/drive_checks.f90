@@ -6,7 +6,7 @@ module drive_checks
     drive_measured_angle, drive_measured_length, drive_ram, drive_relative, drive_slider
   use joint_checks, only: seek_pin
   use kinds, only: wp
-  use measure_cards, only: measure_along, measure_angle
+  use measure_cards, only: measure_along, measure_angle, measure_card_t
   use models, only: model_t
   use name_checks, only: kind_of_unknown, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
@@ -136,8 +136,30 @@ contains
         anint(measure%weights)) > 0.0_wp)) call add_error(diagnostics, drive%subject, "the "// &
         "weights of angles in a sum that is driven are whole numbers: others lose turns", &
         measure%name, "the sum is here")
+      if (cancels(measure)) call add_error(diagnostics, drive%subject, "'"//measure%name%text// &
+        "' cannot be driven: its terms cancel each other, and it is always 0", measure%name, &
+        "the sum is here")
     end associate
   end subroutine find_driven_measure
+
+  !> Whether the weights of every term of a sum add up to nothing.
+  pure function cancels(measure)
+    type(measure_card_t), intent(in) :: measure
+    logical :: cancels
+
+    real(wp) :: total
+    integer :: i, k
+
+    cancels = size(measure%terms) > 0
+    do i = 1, size(measure%terms)
+      total = 0.0_wp
+      do k = 1, size(measure%terms)
+        if (same_word(measure%terms(k)%text, measure%terms(i)%text)) total = total + &
+          measure%weights(k)
+      end do
+      cancels = cancels .and. .not. abs(total) > 0.0_wp
+    end do
+  end function cancels
 
   !> Looks up the slider of a drive.
   pure subroutine find_driven_slider(diagnostics, model, links, pins, drive)
