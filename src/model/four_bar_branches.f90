@@ -3,7 +3,6 @@ module four_bar_branches
   use diagnostics, only: add_error, diagnostics_t, has_errors
   use drive_cards, only: branch_left, branch_right, branch_t
   use kinds, only: wp
-  use link_cards, only: link_t
   use link_shapes, only: find_drawn_pin
   use models, only: branch_crossed, branch_open, is_four_bar, model_t, word_of_four_bar
   use name_index, only: find_name, name_index_t, new_name_index

@@ -42,7 +42,7 @@ module model_reader
   use process_checks, only: find_processes
   use name_checks, only: check_names
   use natures, only: angle_nature, nature_t
-  use output_units, only: new_output_units, output_units_t, table_name
+  use output_units, only: new_output_units, table_name
   use report_cards, only: read_report
   use report_kinds, only: any_linkage, format_words, four_bars, kind_of_linkage, other_linkages, &
     report_kind_t, table_kind_t
@@ -63,7 +63,7 @@ module model_reader
   use tokens, only: token_t
   use unit_cards, only: read_units
   use unit_checks, only: check_bare_units
-  use units, only: coherent_unit, dimension_velocity, from_si, si_units, unit_system_t, unit_t
+  use units, only: coherent_unit, dimension_velocity, from_si, si_units, unit_t
   use value_lists, only: empty_list, value_list_t
   use vibration_checks, only: most_modes
   implicit none (type, external)

@@ -112,6 +112,20 @@ def faults(path, layer_of_module, layers, layer):
         yield 1, "implicit none (type, external) is missing"
 
 
+def unused_imports(path):
+    """Names that a file imports and does not use."""
+    uses, others = [], []
+    for number, text in statements(path, directives=True):
+        (uses if re.match(r"use\b", text) else others).append((number, text))
+    body = "\n".join(text for _, text in others).lower()
+    for number, text in uses:
+        for item in re.sub(r"^.*?only\s*:", "", text).split(",") if re.search(r"only\s*:", text) else []:
+            name = item.split("=>")[0].strip().lower()
+            # A kind stands behind an underscore.
+            if re.fullmatch(r"\w+", name) and not re.search(rf"(\b|_){name}\b", body):
+                yield number, f"{name} is not used"
+
+
 def width_faults(path):
     """Lines wider than the sources are."""
     with open(path, encoding="utf-8") as source:
@@ -174,7 +188,7 @@ def main(root):
             continue
         found = list(faults(path, layer_of_module, layers, layer))
         if layer != "tests":
-            found += width_faults(path)
+            found += list(width_faults(path)) + list(unused_imports(path))
             if headings[path]:
                 found += heading_faults(path, headings[path], public)
         for number, why in found:

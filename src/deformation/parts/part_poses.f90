@@ -10,7 +10,6 @@ module part_poses
   use acceleration_fields, only: acceleration_field_t, point_acceleration
   use applied_load_types, only: is_torsional
   use applied_loads, only: evaluate_loads, standing_pulls
-  use constants, only: degree
   use coordinates, only: evaluated_t
   use carried_bodies, only: add_short_pieces, carried_loads
   use elastic_linkages, only: add_couple, elastic_linkage_t, spring_t

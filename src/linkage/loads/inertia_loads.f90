@@ -2,7 +2,7 @@
 module inertia_loads
   use acceleration_fields, only: acceleration_field_t, point_acceleration
   use kinds, only: wp
-  use linkages, only: body_t, cross, linkage_t, normal_to
+  use linkages, only: body_t, cross, linkage_t
   use poses, only: arm_to_place, pose_t
   implicit none (type, external)
   private

@@ -7,7 +7,6 @@ module motor_cards
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
-  use text, only: same_word
   use tokens, only: earlier, token_t
   use units, only: dimension_inertia, dimension_moment, dimension_none, dimension_rate, &
     unit_system_t

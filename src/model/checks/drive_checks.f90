@@ -12,7 +12,7 @@ module drive_checks
   use name_index, only: find_name, name_index_t, new_name_index
   use spelling, only: suggestion
   use text, only: same_word, string_t
-  use tokens, only: token_t, token_texts
+  use tokens, only: token_texts
   implicit none (type, external)
   private
 

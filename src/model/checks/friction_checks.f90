@@ -10,7 +10,7 @@ module friction_checks
   use name_index, only: name_index_t, new_name_index
   use spring_checks, only: is_on_link
   use text, only: same_word
-  use tokens, only: token_t, token_texts
+  use tokens, only: token_texts
   implicit none (type, external)
   private
 

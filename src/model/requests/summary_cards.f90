@@ -4,8 +4,7 @@ module summary_cards
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use spelling, only: suggestion
-  use summary_quantities, only: find_quantity, quantity_kinds, quantity_name, quantity_names, &
-    quantity_t
+  use summary_quantities, only: find_quantity, quantity_name, quantity_names, quantity_t
   use text, only: joined, same_word, string_t
   use tokens, only: token_t
   use value_lists, only: find_items

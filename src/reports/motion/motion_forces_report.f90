@@ -2,7 +2,6 @@
 !! under its motor and loads.
 module motion_forces_report
   use joints_report, only: add_open_row, friction_note, owner_cell, plan_joints
-  use kinds, only: wp
   use load_notes, only: append_load_notes
   use motion_pins_report, only: add_early_end, time_in_table
   use motion_study, only: undetermined_message

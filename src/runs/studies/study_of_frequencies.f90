@@ -1,13 +1,11 @@
 !> Frequencies at every position and speed, in blocks of positions that are tasks of a job.
 module study_of_frequencies
   use byte_streams, only: byte_stream_t
-  use errors, only: error_t
   use frequency_memory, only: add_frequency_memory
   use frequency_study, only: begin_sweep, block_count, block_of, finish_sweep, missed_states, &
     most_attempts, solve_block
   use interruption, only: was_interrupted
   use jobs, only: job_t
-  use kinds, only: wp
   use link_store, only: link_store_t
   use mode_requests, only: drawn_states, mode_request_of
   use models, only: speed_in_words
