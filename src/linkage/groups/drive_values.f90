@@ -33,17 +33,24 @@ contains
     end if
   end function drive_value
 
-  !> How far the coordinate of a drive goes where lengths or angles of the linkage change by 1: a
+  !> How far the coordinate of a drive may go where lengths or angles of the linkage change by 1: a
   !! sum has weights of any size.
   pure function drive_weight(linkage, number) result(weight)
     type(linkage_t), intent(in) :: linkage !! its drives and coordinates
     integer, intent(in) :: number          !! of the drive, from 1
     real(wp) :: weight
 
+    integer :: i
+
     weight = 1.0_wp
     if (linkage%drives(number)%kind /= drive_of_coordinate) return
     associate (coordinate => linkage%coordinates(linkage%drives(number)%coordinate))
-      if (coordinate%kind == is_sum) weight = sum(abs(coordinate%weight))
+      if (coordinate%kind /= is_sum) return
+      weight = 0.0_wp
+      do i = 1, size(coordinate%term)
+        if (any(coordinate%term(:i - 1) == coordinate%term(i))) cycle
+        weight = weight + abs(sum(coordinate%weight, mask=coordinate%term == coordinate%term(i)))
+      end do
     end associate
   end function drive_weight
 

@@ -1,5 +1,6 @@
 !> Where the first drive, or another one, can be.
 module crank_limits
+  use drive_values, only: drive_weight
   use errors, only: error_t
   use kinds, only: wp
   use linkage_paths, only: period_of
@@ -53,7 +54,7 @@ contains
     logical, allocatable :: closes(:)
     logical :: is_angle, found
     integer, allocatable :: order(:)
-    integer :: i, k, n, group
+    integer :: i, k, n, group, number
 
     allocate (ranges(0))
     period = period_of(linkage)
@@ -65,6 +66,9 @@ contains
     if (period <= 0.0_wp) then
       step = 360.0_wp/samples
       if (.not. is_angle) step = maxval(linkage%bodies%length)/samples
+      number = 1
+      if (present(drive)) number = drive
+      step = step*drive_weight(linkage, number)
       order = ascending_order(inside)
       do i = 1, size(inside)
         c = inside(order(i))

@@ -407,14 +407,13 @@ contains
     type(bridge_t) :: bridge
     type(approach_t) :: approach
     type(pose_t) :: pose
-    real(wp) :: step, most_step, goal, unit, reach
+    real(wp) :: step, most_step, goal, unit, weight
     integer :: halvings, stations, turns
     logical :: is_angle, is_close, is_good, is_free, is_ahead, found
 
     is_angle = follows_angle(linkage)
-    reach = 10.0_wp*span*drive_weight(linkage, 1)
-    most_step = length_step*span*drive_weight(linkage, 1)
-    if (is_angle) most_step = angle_step
+    weight = drive_weight(linkage, 1)
+    most_step = merge(angle_step, length_step*span, is_angle)*weight
     unit = 1.0_wp
     if (is_angle) unit = degree
     usual = max(usual, abs(first%pose%sine))
@@ -484,11 +483,11 @@ contains
           path%period = turns*360.0_wp
           exit
         end if
-        if (turns >= most_turns_followed) exit
+        if (turns >= min(most_turns_followed*weight, 1.0_wp*most_turns)) exit
         turns = turns + 1
         goal = first%crank + sense*turns*360.0_wp
       else
-        if (abs(here%crank - first%crank) > reach) exit
+        if (abs(here%crank - first%crank) > 10.0_wp*span*weight) exit
       end if
     end do
     if (approach%is_found) then

@@ -76,7 +76,8 @@ contains
     type(kinematic_coefficients_t), intent(in) :: coefficients !! of this pose
     real(wp), intent(in) :: speed          !! of the first drive [rad/s] or [m/s]
     real(wp), intent(in) :: acceleration   !! of the first drive [rad/s²] or [m/s²]
-    type(unit_reactions_t), intent(in) :: unit !! of this pose; needed only where joints rub
+    type(unit_reactions_t), intent(in) :: unit !! of this pose; without it forces in joints that do
+                                           !! not rub are of no use, and `load` is right
     type(running_t), intent(out) :: running
     type(divided_t), intent(in), optional :: divided !! at this pose and speed; absent: statics
                                                      !! tells the forces in the joints

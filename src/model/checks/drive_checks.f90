@@ -147,6 +147,7 @@ contains
     type(measure_card_t), intent(in) :: measure
     logical :: cancels
 
+    real(wp), parameter :: rounding = 1.0e-15_wp
     real(wp) :: total
     integer :: i, k
 
@@ -157,7 +158,7 @@ contains
         if (same_word(measure%terms(k)%text, measure%terms(i)%text)) total = total + &
           measure%weights(k)
       end do
-      cancels = cancels .and. .not. abs(total) > 0.0_wp
+      cancels = cancels .and. .not. abs(total) > rounding*sum(abs(measure%weights))
     end do
   end function cancels
 

@@ -14,6 +14,7 @@ module limits_report
   use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: name_cell
+  use text, only: same_word
   use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -118,11 +119,20 @@ contains
 
     type(nature_t) :: nature
     type(part_t) :: part
+    integer :: i
 
     nature = nature_of_drive(variant%model%drives(further%drive)%kind)
-    associate (linkage => variant%mechanism%linkage)
+    associate (linkage => variant%mechanism%linkage, listed => variant%mechanism%coordinates, &
+        measure => variant%model%drives(further%drive)%measure)
       part%link = linkage%drives(further%drive)%body
-      if (part%link == 0) part%pin = linkage%sliders(linkage%drives(further%drive)%slider)%pin
+      if (measure > 0) then
+        do i = 1, size(listed)
+          if (same_word(listed(i)%name, variant%model%measures(measure)%name%text)) &
+            part%coordinate = i
+        end do
+      else if (part%link == 0) then
+        part%pin = linkage%sliders(linkage%drives(further%drive)%slider)%pin
+      end if
     end associate
     call put(variant, layout, rows, part, "drive_from", further%crank(1), further%range%from, &
       nature)

@@ -7,7 +7,7 @@ module limits_study
   use crank_limits, only: crank_range_t, find_ranges, find_ranges_of_deck
   use dead_points, only: find_low_points
   use four_bar_loops, only: four_bar_t
-  use drive_values, only: drive_value
+  use drive_values, only: drive_value, drive_weight
   use group_equations, only: line_offset
   use kinds, only: wp
   use limited_quantities, only: angle_of_body, place_of_slider, pressure_of_lever, &
@@ -128,7 +128,8 @@ contains
 
     positions = [0.0_wp]
     if (gives_angle(linkage%drives(1))) return
-    span = 2.0_wp*sum(linkage%bodies%length) + maxval(norm2(linkage%ground_position, dim=1))
+    span = drive_weight(linkage, 1)*(2.0_wp*sum(linkage%bodies%length) + maxval(norm2( &
+      linkage%ground_position, dim=1)))
     positions = [(span*i/steps, i=-steps, steps)]
   end function everywhere
 
