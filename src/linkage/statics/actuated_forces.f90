@@ -87,17 +87,15 @@ contains
 
   !> Whether the actuators hold a linkage at a pose. Errors: one of them does not move, or there is
   !! a motion in which none does.
-  pure subroutine find_actuator_fault(linkage, pose, error)
-    type(linkage_t), intent(in) :: linkage !! its actuators, if it has any
-    type(pose_t), intent(in) :: pose       !! away from dead points
+  pure subroutine find_actuator_fault(linkage, factors, error)
+    type(linkage_t), intent(in) :: linkage         !! its actuators, if it has any
+    type(statics_factors_t), intent(in) :: factors !! of `factorize_statics` at a pose
     type(error_t), allocatable, intent(out) :: error
 
-    type(statics_factors_t) :: factors
     character(len=:), allocatable :: names
     integer :: a
 
-    if (.not. is_actuated(linkage)) return
-    call factorize_statics(linkage, pose, factors)
+    if (.not. allocated(factors%actuation)) return
     if (factors%actuation%holds) return
     names = ""
     do a = 1, size(linkage%actuators)

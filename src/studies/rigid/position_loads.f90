@@ -69,9 +69,9 @@ contains
     type(elastic_division_t), intent(in), optional :: division !! of this linkage, if its elasticity
                                                  !! divides forces
 
-    call find_actuator_fault(linkage, pose, error)
-    if (allocated(error)) return
     call find_unit_reactions(linkage, elements, pose, coefficients, found%unit)
+    call find_actuator_fault(linkage, found%unit%factors, error)
+    if (allocated(error)) return
     if (present(division)) call divide_by_elasticity(division, pose, coefficients, found%unit, &
       found%at, error)
   end subroutine find_position_loads
