@@ -106,6 +106,7 @@ contains
     type(level_slot_t), allocatable, target :: levels(:)
     type(station_t), allocatable :: stations(:)
     type(step_t), allocatable :: steps(:)
+    type(meeting_t), allocatable :: grown(:)
     real(wp), allocatable :: speeds(:)
     real(wp) :: from, range(2), fastest
     integer :: i, k, number(size(sample_numbers)), round, slow
@@ -157,8 +158,9 @@ contains
     found%stations = size(steps) + 1
     do k = 1, size(steps)
       found%meetings = found%meetings + steps(k)%meetings
-      meetings = [meetings, pack(steps(k)%meeting, steps(k)%meeting%growth >= worth* &
-        request%least_growth)]
+      ! As the result of a function it would not be freed in the constructor (gfortran 12).
+      grown = pack(steps(k)%meeting, steps(k)%meeting%growth >= worth*request%least_growth)
+      meetings = [meetings, grown]
       if (steps(k)%good) cycle
       ! Neighbours that failed alike are one gap.
       do i = k - 1, 1, -1
