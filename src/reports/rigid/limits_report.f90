@@ -8,13 +8,13 @@ module limits_report
     quantity_t, time_ratio, transmission_of_dyad, transmission_of_lines, value_of_coordinate
   use limits_words, only: limits_names, limits_notes
   use models, only: nature_of_positions
+  use named_coordinates, only: measured_coordinate
   use natures, only: angle_nature, length_nature, nature_t
   use report_kinds, only: other_linkages, report_kind_t
   use report_types, only: add_table, report_record_t, table_plan_t, whole_table_t
   use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: name_cell
-  use text, only: same_word
   use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -119,17 +119,13 @@ contains
 
     type(nature_t) :: nature
     type(part_t) :: part
-    integer :: i
 
     nature = nature_of_drive(variant%model%drives(further%drive)%kind)
-    associate (linkage => variant%mechanism%linkage, listed => variant%mechanism%coordinates, &
-        measure => variant%model%drives(further%drive)%measure)
+    associate (linkage => variant%mechanism%linkage, measure => variant%model%drives( &
+        further%drive)%measure)
       part%link = linkage%drives(further%drive)%body
       if (measure > 0) then
-        do i = 1, size(listed)
-          if (same_word(listed(i)%name, variant%model%measures(measure)%name%text)) &
-            part%coordinate = i
-        end do
+        part%coordinate = measured_coordinate(variant%model, measure)
       else if (part%link == 0) then
         part%pin = linkage%sliders(linkage%drives(further%drive)%slider)%pin
       end if
