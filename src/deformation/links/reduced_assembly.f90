@@ -13,6 +13,7 @@ module reduced_assembly
   private
 
   public :: reduced_layout, reduced_mass, reduced_geometric_stiffness, first_axial
+  public :: add_link_mass, add_link_stiffness
 
 contains
 
@@ -46,7 +47,7 @@ contains
 
     real(wp) :: across(size(chords%across, 1), layout%border), along(2, layout%border), &
       motion(3, layout%border)
-    integer :: b, i, j, k, n, first
+    integer :: b, k, n, first, last, axial
 
     mass%border = 0.0_wp
     do b = 1, size(links)
@@ -58,29 +59,13 @@ contains
       n = 2 + links(b)%curves
       across = chords%across(:, :, b)
       along = chords%along(:, :, b)
-      mass%border = mass%border + form_of(links(b)%linear, across) + &
-        form_of(links(b)%axial_linear, along)
-      first = layout%first(b) - 1
-      do k = 1, links(b)%modes
-        mass%diagonal(first + k) = links(b)%square(k)
-        do i = 1, layout%border
-          mass%coupling(i, first + k) = across(1, i)*links(b)%participation(1, k) + &
-            across(2, i)*links(b)%participation(2, k)
-        end do
-        do j = 3, n
-          mass%coupling(:, first + k) = mass%coupling(:, first + k) + &
-            across(j, :)*links(b)%participation(j, k)
-        end do
-      end do
-      if (links(b)%coupled) call add_coupled_mass(links(b), across(:n, :), along, first, mass)
-      first = first_axial(layout, links, b) - 1
-      do k = 1, links(b)%axial_modes
-        mass%diagonal(first + k) = links(b)%axial_square(k)
-        do i = 1, layout%border
-          mass%coupling(i, first + k) = along(1, i)*links(b)%axial_participation(1, k) + &
-            along(2, i)*links(b)%axial_participation(2, k)
-        end do
-      end do
+      first = layout%first(b)
+      last = first + links(b)%modes - 1
+      mass%diagonal(first:last) = links(b)%square
+      axial = first_axial(layout, links, b)
+      mass%diagonal(axial:axial + links(b)%axial_modes - 1) = links(b)%axial_square
+      call add_link_mass(links(b), across(:n, :), along, mass%border, &
+        mass%coupling(:, first:last), mass%coupling(:, axial:axial + links(b)%axial_modes - 1))
     end do
     do b = 1, size(linkage%pin_mass)
       if (linkage%pin_mass(b) <= 0.0_wp) cycle
@@ -90,6 +75,35 @@ contains
       end do
     end do
   end subroutine reduced_mass
+
+  !> The mass of a link that bends, between displacements that move it and its own modes.
+  pure subroutine add_link_mass(link, across, along, border, coupling, axial_coupling)
+    type(link_modes_t), intent(in) :: link       !! that bends
+    real(wp), intent(in) :: across(:, :), along(:, :) !! (functions, displacements) as of `chords_t`
+    real(wp), intent(inout) :: border(:, :)      !! (displacements, displacements) grows
+    real(wp), intent(inout) :: coupling(:, :)    !! (displacements, modes) is set
+    real(wp), intent(inout) :: axial_coupling(:, :) !! (displacements, axial modes) is set
+
+    integer :: i, j, k
+
+    border = border + form_of(link%linear, across) + form_of(link%axial_linear, along)
+    do k = 1, link%modes
+      do i = 1, size(border, 1)
+        coupling(i, k) = across(1, i)*link%participation(1, k) + &
+          across(2, i)*link%participation(2, k)
+      end do
+      do j = 3, size(across, 1)
+        coupling(:, k) = coupling(:, k) + across(j, :)*link%participation(j, k)
+      end do
+    end do
+    if (link%coupled) call add_coupled_mass(link, across, along, border, coupling)
+    do k = 1, link%axial_modes
+      do i = 1, size(border, 1)
+        axial_coupling(i, k) = along(1, i)*link%axial_participation(1, k) + &
+          along(2, i)*link%axial_participation(2, k)
+      end do
+    end do
+  end subroutine add_link_mass
 
   !> `FᵀAF` of a symmetric matrix A.
   pure function form_of(matrix, functions) result(form)
@@ -112,21 +126,20 @@ contains
   end function form_of
 
   !> Adds what couples the motions of a link across and along: masses beside its axis.
-  pure subroutine add_coupled_mass(link, across, along, first, mass)
+  pure subroutine add_coupled_mass(link, across, along, border, coupling)
     type(link_modes_t), intent(in) :: link
-    real(wp), intent(in) :: across(:, :), along(:, :) !! (functions, border)
-    integer, intent(in) :: first                      !! number of its first unknown, minus one
-    type(bordered_matrix_t), intent(inout) :: mass
+    real(wp), intent(in) :: across(:, :), along(:, :)
+    real(wp), intent(inout) :: border(:, :), coupling(:, :)
 
     real(wp) :: cross(size(across, 2), size(across, 2))
     integer :: i, k
 
     cross = matmul(transpose(across), matmul(link%cross_linear, along))
-    mass%border = mass%border + cross + transpose(cross)
+    border = border + cross + transpose(cross)
     do k = 1, link%modes
       do i = 1, size(across, 2)
-        mass%coupling(i, first + k) = mass%coupling(i, first + k) + &
-          along(1, i)*link%along_participation(1, k) + along(2, i)*link%along_participation(2, k)
+        coupling(i, k) = coupling(i, k) + along(1, i)*link%along_participation(1, k) + &
+          along(2, i)*link%along_participation(2, k)
       end do
     end do
   end subroutine add_coupled_mass
@@ -141,55 +154,72 @@ contains
                                                         !! tension positive [N]
     type(bordered_matrix_t), intent(inout) :: stiffness !! of this layout, with blocks [-]
 
-    real(wp), allocatable :: slopes(:, :)
-    real(wp) :: added(layout%border)
-    integer :: b, c, i, j, k, m, n, first
+    integer :: b, first
 
     stiffness%border = 0.0_wp
     do b = 1, size(links)
-      m = links(b)%modes
-      slopes = force(1, b)*links(b)%geometric(:, :, 1)
-      do j = 2, size(links(b)%geometric, 3)
-        slopes = slopes + force(j, b)*links(b)%geometric(:, :, j)
+      first = layout%first(b)
+      call add_link_stiffness(links(b), chords%turn(:, b), chords%across(3:, :, b), force(:, b), &
+        stiffness%border, stiffness%coupling(:, first:first + links(b)%modes - 1), &
+        stiffness%block(:, :, b))
+    end do
+  end subroutine reduced_geometric_stiffness
+
+  !> `K_G = ∫ N v'² dx` of a link, between displacements that turn it and its own modes.
+  pure subroutine add_link_stiffness(link, turn, curve, force, border, coupling, block)
+    type(link_modes_t), intent(in) :: link    !! of any kind
+    real(wp), intent(in) :: turn(:)           !! (displacements) what they turn its chord
+    real(wp), intent(in) :: curve(:, :)       !! (curves or more, displacements)
+    real(wp), intent(in) :: force(:)          !! (force functions) coefficients, tension positive
+                                              !! [N]
+    real(wp), intent(inout) :: border(:, :)   !! (displacements, displacements) grows
+    real(wp), intent(inout) :: coupling(:, :) !! (displacements, modes) is set
+    real(wp), intent(inout) :: block(:, :)    !! (modes or more, modes or more) is set
+
+    real(wp) :: slopes(rigid + link%curves + link%modes, rigid + link%curves + link%modes), &
+      added(size(turn))
+    integer :: c, i, j, k, m, n
+
+    m = link%modes
+    slopes = force(1)*link%geometric(:, :, 1)
+    do j = 2, size(link%geometric, 3)
+      slopes = slopes + force(j)*link%geometric(:, :, j)
+    end do
+    n = rigid + link%curves
+    do k = 1, m
+      block(:m, k) = slopes(n + 1:, n + k)
+      do i = 1, size(turn)
+        coupling(i, k) = turn(i)*slopes(rigid, n + k)
       end do
-      first = layout%first(b) - 1
-      n = rigid + links(b)%curves
-      do k = 1, m
-        stiffness%block(:m, k, b) = slopes(n + 1:, n + k)
-        do i = 1, layout%border
-          stiffness%coupling(i, first + k) = chords%turn(i, b)*slopes(rigid, n + k)
-        end do
-        do c = 1, links(b)%curves
-          do i = 1, layout%border
-            stiffness%coupling(i, first + k) = stiffness%coupling(i, first + k) + &
-              chords%across(2 + c, i, b)*slopes(rigid + c, n + k)
-          end do
+      do c = 1, link%curves
+        do i = 1, size(turn)
+          coupling(i, k) = coupling(i, k) + curve(c, i)*slopes(rigid + c, n + k)
         end do
       end do
-      do i = 1, layout%border
-        added = stiffness%border(:, i) + moment_on(rigid)*chords%turn(:, b)
-        do c = 1, links(b)%curves
-          added = added + moment_on(rigid + c)*chords%across(2 + c, :, b)
-        end do
-        stiffness%border(:, i) = added
+    end do
+    do i = 1, size(turn)
+      added = border(:, i) + moment_on(rigid)*turn
+      do c = 1, link%curves
+        added = added + moment_on(rigid + c)*curve(c, :)
       end do
+      border(:, i) = added
     end do
 
   contains
 
-    !> What a unit of border unknown i does to the chord or a curve of body b.
+    !> What a unit of displacement i does to the chord or a curve.
     pure function moment_on(row) result(moment)
       integer, intent(in) :: row
       real(wp) :: moment
 
       integer :: j
 
-      moment = chords%turn(i, b)*slopes(rigid, row)
-      do j = 1, links(b)%curves
-        moment = moment + chords%across(2 + j, i, b)*slopes(rigid + j, row)
+      moment = turn(i)*slopes(rigid, row)
+      do j = 1, link%curves
+        moment = moment + curve(j, i)*slopes(rigid + j, row)
       end do
     end function moment_on
 
-  end subroutine reduced_geometric_stiffness
+  end subroutine add_link_stiffness
 
 end module reduced_assembly

@@ -8,7 +8,7 @@
 module part_forces
   use axial_forces, only: lump_functions, most_lump_functions
   use border_loads, only: border_work, own_work
-  use border_rows, only: add_stretch, damper_rows, spring_way
+  use border_rows, only: add_stretch, border_unknowns_t, damper_rows, spring_way
   use carried_bodies, only: add_carried_stiffness, carried_work
   use dense_factor, only: dense_factor_t, factorize, solve
   use drive_rates, only: find_drive_rates, own_drive_compliance, own_drive_rates, &
@@ -27,7 +27,8 @@ module part_forces
   implicit none (type, external)
   private
 
-  public :: part_forces_t, pull_forces_t, find_part_forces, find_pull_forces
+  public :: part_forces_t, pull_forces_t, find_part_forces, find_pull_forces, make_room, &
+    take_forces
 
   !> Forces where every damper pulls by 1 N, or turns back by 1 N m.
   type :: pull_forces_t
@@ -58,31 +59,17 @@ contains
 
     type(chords_t) :: of_constraints
     type(own_rates_t) :: on_own(size(links))
-    type(spring_t), allocatable :: springs(:)
     real(wp), allocatable :: on_drives(:, :), drives_of_constraints(:, :), held(:), &
-      compliance(:, :), pull(:)
+      compliance(:, :)
     integer, allocatable :: free(:)
     real(wp) :: work(size(chords%turn, 1)), weighted(size(border%rows%weight)), &
-      lambda(border%numbers%constraints), constant, mean
-    integer :: i, k, n
+      lambda(border%numbers%constraints), constant
+    integer :: i, n
 
     n = size(chords%turn, 1) - chords%free
-    allocate (forces%axial(merge(3 + most_lump_functions(elastic%linkage), 0, &
-      any(loads%unit%occurs)), size(links), case_count))
-    allocate (forces%second_order(n + chords%free, n + chords%free, case_count), &
-      forces%guide(size(elastic%contact), case_count), forces%spring(size(elastic%springs), &
-      case_count))
-    forces%axial = 0.0_wp
-    forces%second_order = 0.0_wp
-    allocate (forces%border(n + chords%free, case_count), source=0.0_wp)
-    allocate (forces%weighted(size(border%rows%weight), case_count), source=0.0_wp)
-    allocate (forces%constraint(border%numbers%constraints, case_count), source=0.0_wp)
-    forces%guide = 0.0_wp
-    forces%spring = 0.0_wp
-    allocate (forces%drive(size(linkage%drives), case_count), source=0.0_wp)
+    call make_room(linkage, elastic, loads, border%numbers, n + chords%free, forces)
     free = pack([(i, i=1, size(linkage%drives))], linkage%drives%is_free)
     if (.not. any(loads%unit%occurs)) return
-    springs = [elastic%springs, elastic%tensions]
     of_constraints = chords_of(elastic, links, pose, border%numbers, border%basis%violation, &
       border%basis%weighted_violation)
     call find_drive_rates(linkage, elastic, links, pose, chords, on_drives)
@@ -108,28 +95,68 @@ contains
         forces%border(:n, i) = work(:n)
         weighted = matmul(border%basis%weighted, work(:n))
         lambda = lambda - matmul(weighted, border%basis%weighted_violation)
-        forces%weighted(:, i) = weighted
-        forces%constraint(:, i) = lambda
+        call take_forces(elastic, links, pose, loads, border%numbers, weighted, lambda, i, forces)
         constant = merge(1.0_wp, 0.0_wp, i == constant_case)
-        forces%guide(:, i) = guide_forces(border, lambda)
-        forces%spring(:, i) = spring_forces(elastic, border, weighted) + constant*loads%pull
-        pull = [forces%spring(:, i), constant*loads%tension]
-        do k = 1, size(links)
-          if (.not. elastic%linkage%bodies(k)%bends) then
-            forces%axial(1, k, i) = turning_load(elastic, pose, case, border%numbers, forces, i, &
-              springs, pull, k)/elastic%linkage%bodies(k)%length
-            cycle
-          end if
-          mean = weighted(border%numbers%elongation(k))/links(k)%elongation
-          call add_distribution(elastic%linkage, k, pose, case, mean, forces%axial(:, k, i))
-        end do
         call add_guides(elastic, pose, chords, forces%guide(:, i), forces%second_order(:, :, i))
-        call add_lines(elastic, pose, border, springs, pull, forces%second_order(:, :, i))
+        call add_lines(elastic, pose, border, elastic%springs, forces%spring(:, i), &
+          forces%second_order(:, :, i))
+        call add_lines(elastic, pose, border, elastic%tensions, constant*loads%tension, &
+          forces%second_order(:, :, i))
         call add_carried_stiffness(elastic, chords, loads%carried(:, :, i), &
           forces%second_order(:, :, i))
       end associate
     end do
   end subroutine find_part_forces
+
+  !> Forces of no loads.
+  pure subroutine make_room(linkage, elastic, loads, numbers, border, forces)
+    type(linkage_t), intent(in) :: linkage          !! that moves: its drives
+    type(elastic_linkage_t), intent(in) :: elastic  !! its parts
+    type(part_loads_t), intent(in) :: loads         !! which of them occur
+    type(border_unknowns_t), intent(in) :: numbers  !! of rows and constraints
+    integer, intent(in) :: border                   !! number of unknowns of a border
+    type(part_forces_t), intent(out) :: forces
+
+    allocate (forces%axial(merge(3 + most_lump_functions(elastic%linkage), 0, &
+      any(loads%unit%occurs)), size(elastic%body), case_count), forces%second_order(border, &
+      border, case_count), forces%guide(size(elastic%contact), case_count), &
+      forces%spring(size(elastic%springs), case_count), forces%border(border, case_count), &
+      forces%weighted(size(numbers%rows), case_count), forces%constraint(numbers%constraints, &
+      case_count), forces%drive(size(linkage%drives), case_count), source=0.0_wp)
+  end subroutine make_room
+
+  !> The forces of a load case from those in rows and constraints.
+  pure subroutine take_forces(elastic, links, pose, loads, numbers, weighted, lambda, case, forces)
+    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
+    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
+    type(pose_t), intent(in) :: pose                !! of points and parts
+    type(part_loads_t), intent(in) :: loads         !! of this position
+    type(border_unknowns_t), intent(in) :: numbers  !! of rows and constraints
+    real(wp), intent(in) :: weighted(:)             !! (rows) [√J]
+    real(wp), intent(in) :: lambda(:)               !! (constraints) [N]
+    integer, intent(in) :: case                     !! number of the load case
+    type(part_forces_t), intent(inout) :: forces    !! with those of free drives
+
+    real(wp) :: constant, mean
+    integer :: k
+
+    forces%weighted(:, case) = weighted
+    forces%constraint(:, case) = lambda
+    constant = merge(1.0_wp, 0.0_wp, case == constant_case)
+    forces%guide(:, case) = guide_forces(numbers, lambda)
+    forces%spring(:, case) = spring_forces(elastic, numbers, weighted) + constant*loads%pull
+    do k = 1, size(links)
+      if (elastic%linkage%bodies(k)%bends) then
+        mean = weighted(numbers%elongation(k))/links(k)%elongation
+        call add_distribution(elastic%linkage, k, pose, loads%unit%of_case(case), mean, &
+          forces%axial(:, k, case))
+      else
+        forces%axial(1, k, case) = turning_load(elastic, pose, loads%unit%of_case(case), numbers, &
+          forces, case, [elastic%springs, elastic%tensions], [forces%spring(:, case), &
+          constant*loads%tension], k)/elastic%linkage%bodies(k)%length
+      end if
+    end do
+  end subroutine take_forces
 
   !> Work of couples on the ends of parts that bend.
   pure function work_on_ends(elastic, links, chords, couple) result(work)
@@ -179,9 +206,9 @@ contains
       lambda = -matmul(rows(:, i), border%basis%violation) - matmul(weighted, &
         border%basis%weighted_violation)
       unit%constraint = reshape(lambda, [size(lambda), 1])
-      unit%guide = reshape(guide_forces(border, lambda), [size(elastic%contact), 1])
+      unit%guide = reshape(guide_forces(border%numbers, lambda), [size(elastic%contact), 1])
       associate (springs => [elastic%springs, elastic%dampers(i)], &
-          pull => [spring_forces(elastic, border, weighted), 1.0_wp])
+          pull => [spring_forces(elastic, border%numbers, weighted), 1.0_wp])
         do k = 1, size(links)
           if (elastic%linkage%bodies(k)%bends) then
             forces%axial(k, i) = weighted(border%numbers%elongation(k))/links(k)%elongation
@@ -198,26 +225,26 @@ contains
   end subroutine find_pull_forces
 
   !> What springs that are strained by the deformation pull, or turn back [N] or [N m].
-  pure function spring_forces(elastic, border, weighted) result(force)
+  pure function spring_forces(elastic, numbers, weighted) result(force)
     type(elastic_linkage_t), intent(in) :: elastic
-    type(border_t), intent(in) :: border
+    type(border_unknowns_t), intent(in) :: numbers
     real(wp), intent(in) :: weighted(:) !! (rows) [√J]
     real(wp) :: force(size(elastic%springs))
 
-    force = sqrt(elastic%springs%stiffness)*weighted(border%numbers%spring)
+    force = sqrt(elastic%springs%stiffness)*weighted(numbers%spring)
   end function spring_forces
 
   !> Forces of guides on their blocks, along the normals of their lines [N].
-  pure function guide_forces(border, lambda) result(force)
-    type(border_t), intent(in) :: border
+  pure function guide_forces(numbers, lambda) result(force)
+    type(border_unknowns_t), intent(in) :: numbers
     real(wp), intent(in) :: lambda(:) !! (constraints)
-    real(wp) :: force(size(border%numbers%line_constraint))
+    real(wp) :: force(size(numbers%line_constraint))
 
     integer :: i
 
     force = 0.0_wp
     do i = 1, size(force)
-      associate (row => border%numbers%line_constraint(i))
+      associate (row => numbers%line_constraint(i))
         if (row > 0) force(i) = -lambda(row)
       end associate
     end do

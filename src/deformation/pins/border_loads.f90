@@ -8,12 +8,12 @@ module border_loads
   use link_modes, only: link_modes_t
   use linkages, only: body_t, linkage_t, normal_to, turned_back
   use load_cases, only: load_case_t
-  use pin_displacements, only: body_displacement, chords_t
+  use pin_displacements, only: chords_t
   use poses, only: pose_t
   implicit none (type, external)
   private
 
-  public :: border_work, own_work, accelerations_along, has_forces, work_on_bending
+  public :: border_work, add_link_work, own_work, accelerations_along, has_forces, work_on_bending
 
 contains
 
@@ -29,31 +29,50 @@ contains
     type(load_case_t), intent(in) :: case          !! acceleration field, forces, torques
     real(wp) :: work(size(chords%turn, 1))         !! (displacements) of unknowns in √J: [√J]
 
-    real(wp) :: along(2), across(2)
-    integer :: b, k, n
+    integer :: b, k
 
     work = 0.0_wp
     do b = 1, size(links)
-      work = work + case%couple(b)*chords%turn(:, b)
-      if (.not. links(b)%bends) then
-        work = work + matmul(rigid_work(linkage, b, pose, case), body_displacement(chords, b))
-        cycle
-      end if
-      call accelerations_along(links(b), b, pose, case, along, across)
-      n = 2 + links(b)%curves
-      work = work - matmul(transpose(chords%across(:n, :, b)), matmul(links(b)%linear(:, 1:2), &
-        across)) - matmul(transpose(chords%along(:, :, b)), matmul(links(b)%axial_linear, along))
-      if (links(b)%coupled) call add_coupled_loads(links(b), chords%across(:n, :, b), &
-        chords%along(:, :, b), [across, along, lump_offsets(linkage%bodies(b))* &
-        dot_product(pose%direction(:, b), case%field%slope(:, b))], work)
-      if (has_forces(linkage%bodies(b), case)) call add_place_forces(linkage, links(b), b, chords, &
-        pose, case, work)
+      call add_link_work(linkage, links(b), b, chords%across(:, :, b), chords%along(:, :, b), &
+        chords%turn(:, b), pose, case, work)
     end do
     do k = 1, size(linkage%pin_mass)
       work = work - linkage%pin_mass(k)*matmul(case%field%at_pin(:, k), chords%pin(:, k, :)) + &
         matmul(case%pin_force(:, k), chords%pin(:, k, :))
     end do
   end function border_work
+
+  !> Adds the work of a load case on a link.
+  pure subroutine add_link_work(linkage, link, body, across, along, turn, pose, case, work)
+    type(linkage_t), intent(in) :: linkage            !! masses
+    type(link_modes_t), intent(in) :: link            !! of any kind
+    integer, intent(in) :: body                       !! its number
+    real(wp), intent(in) :: across(:, :), along(:, :) !! (functions, displacements) as of `chords_t`
+    real(wp), intent(in) :: turn(:)                   !! (displacements)
+    type(pose_t), intent(in) :: pose                  !! directions of the links
+    type(load_case_t), intent(in) :: case             !! acceleration field, forces, torques
+    real(wp), intent(inout) :: work(:)                !! (displacements)
+
+    real(wp) :: at_ends(2), beside(2)
+    integer :: n
+
+    work = work + case%couple(body)*turn
+    if (.not. link%bends) then
+      associate (load => rigid_work(linkage, body, pose, case))
+        work = work + (load(1)*along(1, :) + load(2)*across(1, :) + load(3)*turn)
+      end associate
+      return
+    end if
+    call accelerations_along(link, body, pose, case, at_ends, beside)
+    n = 2 + link%curves
+    work = work - matmul(transpose(across(:n, :)), matmul(link%linear(:, 1:2), beside)) - &
+      matmul(transpose(along), matmul(link%axial_linear, at_ends))
+    if (link%coupled) call add_coupled_loads(link, across(:n, :), along, [beside, at_ends, &
+      lump_offsets(linkage%bodies(body))*dot_product(pose%direction(:, body), &
+      case%field%slope(:, body))], work)
+    if (has_forces(linkage%bodies(body), case)) call add_place_forces(linkage, link, body, across, &
+      along, pose, case, work)
+  end subroutine add_link_work
 
   !> Work of a load case on the own modes across a link that bends.
   pure function own_work(linkage, link, body, pose, case) result(work)
@@ -128,11 +147,11 @@ contains
 
   !> Adds the work of forces at places of a link on the border displacements. The work of their
   !! moments about the first pin, as the chord turns, is left out: it is in that of the torques.
-  pure subroutine add_place_forces(linkage, link, body, chords, pose, case, border)
+  pure subroutine add_place_forces(linkage, link, body, across, along, pose, case, border)
     type(linkage_t), intent(in) :: linkage
     type(link_modes_t), intent(in) :: link
     integer, intent(in) :: body
-    type(chords_t), intent(in) :: chords
+    real(wp), intent(in) :: across(:, :), along(:, :) !! (functions, border)
     type(pose_t), intent(in) :: pose
     type(load_case_t), intent(in) :: case
     real(wp), intent(inout) :: border(:)
@@ -143,12 +162,12 @@ contains
     do i = 1, size(linkage%bodies(body)%forced)
       associate (at => linkage%bodies(body)%forced(i))
         force = turned_back(case%place_force(:, at%load), pose%direction(:, body))
-        border = border + force(1)*chords%along(1, :, body) + force(2)*chords%across(1, :, body)
+        border = border + force(1)*along(1, :) + force(2)*across(1, :)
         xi = at%place(1)/link%length
         bending = work_on_bending(link, at%place, force)
-        border = border + force(1)*xi*(chords%along(2, :, body) - chords%along(1, :, body))
+        border = border + force(1)*xi*(along(2, :) - along(1, :))
         do c = 1, link%curves
-          border = border + bending(c - link%curves)*chords%across(2 + c, :, body)
+          border = border + bending(c - link%curves)*across(2 + c, :)
         end do
       end associate
     end do

@@ -17,7 +17,7 @@ module border_rows
   private
 
   public :: border_unknowns_t, border_row_t, new_border_unknowns, find_border_rows, &
-    damper_rows, line_direction, spring_way, add_stretch, part_rows
+    damper_rows, line_direction, spring_way, add_stretch, add_spring, add_line, add_rigid, part_rows
   public :: row_elongation, row_curve, row_spring
 
   !> What a row is.
@@ -151,7 +151,9 @@ contains
     do k = 1, size(links)
       associate (part => elastic%linkage%bodies(k), axis => pose%direction(:, k))
         if (.not. part%bends) then
-          call add_rigid(elastic, numbers, pose, k, rows%constraint)
+          i = numbers%body_constraint(k)
+          call add_rigid(elastic, numbers, pose, k, rows%constraint(:, i + 1:i + 2*(1 + &
+            size(part%further))))
           cycle
         end if
         i = numbers%elongation(k)
@@ -257,13 +259,13 @@ contains
     end associate
   end subroutine add_rotation
 
-  !> `U_k − U_0 − θ J r_k = 0` for all pins of a rigid link beyond the first.
+  !> Adds `U_k − U_0 − θ J r_k = 0` for all pins of a rigid link beyond the first.
   pure subroutine add_rigid(elastic, numbers, pose, part, constraint)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(border_unknowns_t), intent(in) :: numbers
-    type(pose_t), intent(in) :: pose
-    integer, intent(in) :: part
-    real(wp), intent(inout) :: constraint(:, :)
+    type(elastic_linkage_t), intent(in) :: elastic  !! its parts
+    type(border_unknowns_t), intent(in) :: numbers  !! of the unknowns
+    type(pose_t), intent(in) :: pose                !! of points and parts
+    integer, intent(in) :: part                     !! number of the link
+    real(wp), intent(inout) :: constraint(:, :)     !! (unknowns, two of each pin)
 
     real(wp) :: arm(2), unit(2)
     integer :: i, k, pin, row
@@ -275,7 +277,7 @@ contains
         arm = pose%direction(:, part)*body%length
         if (k > 0) arm = turned(body%further(k)%place, pose%direction(:, part))
         do i = 1, 2
-          row = numbers%body_constraint(part) + 2*k + i
+          row = 2*k + i
           unit = 0.0_wp
           unit(i) = 1.0_wp
           call add_point(numbers, pin, unit, constraint(:, row))
@@ -287,14 +289,14 @@ contains
     end associate
   end subroutine add_rigid
 
-  !> `a·(U_P − U_Q)` of a block at P on the point Q of its guide.
+  !> Adds `a·(U_P − U_Q)` of a block at P on the point Q of its guide.
   pure subroutine add_line(elastic, numbers, pose, slider, a, row)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(border_unknowns_t), intent(in) :: numbers
-    type(pose_t), intent(in) :: pose
-    integer, intent(in) :: slider
-    real(wp), intent(in) :: a(2)
-    real(wp), intent(inout) :: row(:)
+    type(elastic_linkage_t), intent(in) :: elastic  !! its parts
+    type(border_unknowns_t), intent(in) :: numbers  !! of the unknowns
+    type(pose_t), intent(in) :: pose                !! of points and parts
+    integer, intent(in) :: slider                   !! number
+    real(wp), intent(in) :: a(2)                    !! a direction
+    real(wp), intent(inout) :: row(:)               !! (unknowns)
 
     integer :: part
 
@@ -328,13 +330,13 @@ contains
     end do
   end function damper_rows
 
-  !> Stretch or turn of a spring.
+  !> Adds the stretch or turn of a spring.
   pure subroutine add_spring(elastic, numbers, pose, spring, row)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(border_unknowns_t), intent(in) :: numbers
-    type(pose_t), intent(in) :: pose
-    type(spring_t), intent(in) :: spring
-    real(wp), intent(inout) :: row(:)
+    type(elastic_linkage_t), intent(in) :: elastic  !! its parts
+    type(border_unknowns_t), intent(in) :: numbers  !! of the unknowns
+    type(pose_t), intent(in) :: pose                !! of points and parts
+    type(spring_t), intent(in) :: spring            !! or a damper
+    real(wp), intent(inout) :: row(:)               !! (unknowns)
 
     real(wp) :: way(2)
 
