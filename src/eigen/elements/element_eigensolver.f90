@@ -1,0 +1,507 @@
+! src/eigen/elements/ - the lowest modes of matrices that are sums of small ones, with conditions.
+! In: `element_pencil_t`, the number of modes wanted. Out: modes with error bounds, and a proof that
+! none is missing, as of bordered matrices. Begin with `find_element_modes` here.
+! Not here: the factor of the matrices (`src/base/sparse`), bordered matrices (`src/eigen`).
+
+!> The lowest modes of `K z = λ M z` where K has rows of conditions with multipliers, each with an
+!! error bound, and a proof that none is missing.
+!!
+!! M is zero between multipliers, and positive between unknowns that meet the conditions. K − μM
+!! then has as many negative eigenvalues as there are conditions and modes below μ.
+module element_eigensolver
+  use band_matrix, only: full_band
+  use bordered_eigensolver, only: bordered_modes_t, start_t
+  use dense_eigensolver, only: solve_dense
+  use eigenvalue_gaps, only: relative_gap
+  use element_matrices, only: absolute_times_vector, elements_t, times_vector
+  use elimination_plan, only: elimination_plan_t
+  use errors, only: error_of_numerics, error_t, set_error
+  use indefinite_factor, only: factorize, indefinite_factor_t, solve
+  use kinds, only: wp
+  use sorting, only: ascending_order
+  use text, only: to_string
+  implicit none (type, external)
+  private
+
+  public :: element_pencil_t, find_element_modes, conditions_hold
+
+  !> K and M of the same elements.
+  type :: element_pencil_t
+    real(wp), allocatable :: stiffness(:) !! values of K
+    real(wp), allocatable :: mass(:)      !! values of M [s²]
+    integer :: conditions = 0             !! number of multipliers
+    type(indefinite_factor_t) :: factor   !! of `K − μM`, its room
+  end type element_pencil_t
+
+  integer, parameter :: most_iterations = 8
+
+  !> Two starts have converged to the same mode where the overlap of their modes is above this.
+  real(wp), parameter :: most_overlap = 1.0e-5_wp
+
+  !> Relative distance of eigenvalues below which a mode is kept orthogonal to those found before.
+  real(wp), parameter :: same_eigenvalue = 1.0e-3_wp
+
+  !> Rounding error of an eigenvalue, in units of ε times the terms of its Rayleigh quotient.
+  real(wp), parameter :: rounding = 4.0_wp
+
+  !> Relative distances above the last wanted mode at which modes are counted, the first that
+  !! proves; the least as of `completeness_proof`.
+  real(wp), parameter :: margins(3) = [1.0e-3_wp, 1.0e-5_wp, 1.0e-8_wp]
+
+  !> Vectors of a block of a search without a start: at first, and at most; largest number of all
+  !! of them; relative change of eigenvalues from block to block at which it ends.
+  integer, parameter :: first_block = 2, most_block = 16, most_vectors = 400
+  real(wp), parameter :: start_accuracy = 1.0e-7_wp
+
+  !> A pivot below is rounding, where the largest are about 1: conditions depend on each other.
+  real(wp), parameter :: least_pivot = 64.0_wp*epsilon(1.0_wp)
+
+  !> Modes beyond those wanted in a search without a start.
+  integer, parameter :: guards = 2
+
+contains
+
+  !> Finds the lowest modes from a start; without one, or if its modes are not proven to be
+  !! complete, from a search in all unknowns.
+  !!
+  !! Every mode is improved by inverse iteration at its Rayleigh quotient until the error of its
+  !! eigenvalue is below rounding. Modes within the clearance above the last one wanted are found,
+  !! too. Errors: fewer modes than wanted; no start leads to modes that are proven to be complete.
+  subroutine find_element_modes(elements, plan, pencil, wanted, accurate_vectors, start, found, &
+    error, clearance)
+    type(elements_t), intent(in) :: elements         !! of K and M
+    type(elimination_plan_t), intent(in) :: plan     !! of these
+    type(element_pencil_t), intent(inout) :: pencil  !! K and M
+    integer, intent(in) :: wanted                    !! number of modes
+    logical, intent(in) :: accurate_vectors          !! all digits in the vectors, too
+    type(start_t), intent(in) :: start               !! used if it has at least the modes wanted
+    type(bordered_modes_t), intent(inout) :: found   !! the modes wanted, perhaps more
+    type(error_t), allocatable, intent(out) :: error !! allocated on failure
+    real(wp), intent(in) :: clearance                !! relative distance above the last wanted mode
+                                                     !! within which modes are found, too
+
+    type(start_t) :: blind
+    integer :: block, more
+    logical :: proven
+
+    found%factorizations = 0
+    found%full_solutions = 0
+    found%reduced_solutions = 0
+    found%zeros = 0
+    found%rest = 0.0_wp
+    proven = .false.
+    if (start%modes >= wanted) call improve_all(elements, plan, pencil, wanted, accurate_vectors, &
+      clearance, start, found, proven)
+    block = first_block
+    more = guards
+    do while (.not. proven .and. block <= most_block)
+      call search(elements, plan, pencil, wanted + more, block, blind, found%factorizations)
+      found%full_solutions = found%full_solutions + 1
+      if (blind%modes >= wanted) call improve_all(elements, plan, pencil, wanted, &
+        accurate_vectors, clearance, blind, found, proven)
+      block = 2*block
+      more = 2*more
+    end do
+    if (proven) return
+    if (blind%modes < wanted) then
+      call set_error(error, error_of_numerics, to_string(wanted)// &
+        " modes are asked for, and only "//to_string(blind%modes)//" were found")
+    else
+      call set_error(error, error_of_numerics, "it could not be proven that no mode is missing")
+    end if
+  end subroutine find_element_modes
+
+  !> Whether no condition follows from others, and none is wanting: K is regular, and has as many
+  !! negative eigenvalues as there are conditions.
+  logical function conditions_hold(elements, plan, pencil) result(hold)
+    type(elements_t), intent(in) :: elements        !! of K and M
+    type(elimination_plan_t), intent(in) :: plan    !! of these
+    type(element_pencil_t), intent(inout) :: pencil !! at rest; its factor becomes that of K
+
+    call factorize(plan, elements, pencil%stiffness, pencil%factor)
+    hold = pencil%factor%least_pivot > least_pivot .and. pencil%factor%negative == &
+      pencil%conditions
+  end function conditions_hold
+
+  !> Factorizes `K − μM`.
+  subroutine shift_to(elements, plan, pencil, shift, factorizations)
+    type(elements_t), intent(in) :: elements
+    type(elimination_plan_t), intent(in) :: plan
+    type(element_pencil_t), intent(inout) :: pencil
+    real(wp), intent(in) :: shift !! μ [1/s²]
+    integer, intent(inout) :: factorizations
+
+    if (abs(shift) > 0.0_wp) then
+      call factorize(plan, elements, pencil%stiffness - shift*pencil%mass, pencil%factor)
+    else
+      call factorize(plan, elements, pencil%stiffness, pencil%factor)
+    end if
+    factorizations = factorizations + 1
+  end subroutine shift_to
+
+  !> Number of modes below a shift.
+  integer function count_below(elements, plan, pencil, shift, factorizations) result(number)
+    type(elements_t), intent(in) :: elements
+    type(elimination_plan_t), intent(in) :: plan
+    type(element_pencil_t), intent(inout) :: pencil
+    real(wp), intent(in) :: shift
+    integer, intent(inout) :: factorizations
+
+    call shift_to(elements, plan, pencil, shift, factorizations)
+    number = pencil%factor%negative - pencil%conditions
+  end function count_below
+
+  !> `(K − μM)⁻¹ x` with the factor at hand.
+  subroutine solve_with(plan, pencil, right_side, solution)
+    type(elimination_plan_t), intent(in) :: plan
+    type(element_pencil_t), intent(in) :: pencil
+    real(wp), intent(in) :: right_side(:)
+    real(wp), intent(out) :: solution(:)
+
+    real(wp) :: column(size(right_side), 1)
+
+    column(:, 1) = right_side
+    call solve(plan, pencil%factor, column)
+    solution = column(:, 1)
+  end subroutine solve_with
+
+  !> Improves every mode of a start, sorts them, and checks that they are complete.
+  subroutine improve_all(elements, plan, pencil, wanted, accurate_vectors, distance, start, found, &
+    proven)
+    type(elements_t), intent(in) :: elements
+    type(elimination_plan_t), intent(in) :: plan
+    type(element_pencil_t), intent(inout) :: pencil
+    integer, intent(in) :: wanted
+    logical, intent(in) :: accurate_vectors
+    real(wp), intent(in) :: distance
+    type(start_t), intent(in) :: start
+    type(bordered_modes_t), intent(inout) :: found
+    logical, intent(out) :: proven
+
+    integer :: i, number
+    logical :: converged
+
+    proven = .false.
+    call make_room(found, elements%unknowns, start%modes)
+    number = 0
+    do i = 1, start%modes
+      found%lambda(number + 1) = start%lambda(i)
+      found%mass_times(:, number + 1) = start%direction(:, i)
+      call improve(elements, plan, pencil, accurate_vectors, relative_gap(start%lambda, i), &
+        number + 1, found, converged)
+      if (.not. converged) cycle
+      if (overlaps(found%vector(:, number + 1), found%mass_times(:, :number))) cycle
+      number = number + 1
+      found%origin(number) = i
+    end do
+    call choose_modes(found, ascending_order(found%lambda(:number)))
+    if (number >= wanted) call check(elements, plan, pencil, wanted, distance, found, proven)
+  end subroutine improve_all
+
+  !> Allocates arrays for this many modes; previous contents are lost.
+  pure subroutine make_room(found, unknowns, modes)
+    type(bordered_modes_t), intent(inout) :: found
+    integer, intent(in) :: unknowns, modes
+
+    if (allocated(found%lambda)) deallocate (found%lambda)
+    if (allocated(found%error)) deallocate (found%error)
+    if (allocated(found%origin)) deallocate (found%origin)
+    if (allocated(found%vector)) deallocate (found%vector)
+    if (allocated(found%mass_times)) deallocate (found%mass_times)
+    allocate (found%lambda(modes), found%error(modes), found%origin(modes), &
+      found%vector(unknowns, modes), found%mass_times(unknowns, modes))
+  end subroutine make_room
+
+  !> Whether a mode is already among those found.
+  pure logical function overlaps(vector, mass_times)
+    real(wp), intent(in) :: vector(:), mass_times(:, :)
+
+    integer :: j
+
+    overlaps = .false.
+    do j = 1, size(mass_times, 2)
+      overlaps = overlaps .or. abs(dot_product(vector, mass_times(:, j))) > most_overlap
+    end do
+  end function overlaps
+
+  !> Keeps the modes listed, in this order.
+  pure subroutine choose_modes(found, order)
+    type(bordered_modes_t), intent(inout) :: found
+    integer, intent(in) :: order(:)
+
+    found%lambda = found%lambda(order)
+    found%error = found%error(order)
+    found%origin = found%origin(order)
+    found%vector = found%vector(:, order)
+    found%mass_times = found%mass_times(:, order)
+  end subroutine choose_modes
+
+  !> Inverse iteration at the Rayleigh quotient, two steps with each factor. The mode's column of
+  !! `found` holds the start: a direction `M z` and an estimate of the eigenvalue.
+  !!
+  !! With `(K − σM) w = M v`, vᵀMv = 1 and x = w/β of unit mass, the residual of x is
+  !! `M (v/β − (λ − σ) x)`, and its square in the norm of M⁻¹ is `(1 − (xᵀMv)²)/β²`: divided by the
+  !! distance of the next eigenvalue, it bounds the error of λ (Kato and Temple). `found%error`
+  !! becomes its ratio to λ².
+  subroutine improve(elements, plan, pencil, accurate_vector, gap_guess, mode, found, converged)
+    type(elements_t), intent(in) :: elements
+    type(elimination_plan_t), intent(in) :: plan
+    type(element_pencil_t), intent(inout) :: pencil
+    logical, intent(in) :: accurate_vector
+    real(wp), intent(in) :: gap_guess !! relative distance of the nearest other eigenvalue
+    integer, intent(in) :: mode       !! number of its column
+    type(bordered_modes_t), intent(inout) :: found
+    logical, intent(out) :: converged
+
+    real(wp), dimension(elements%unknowns) :: before, stiffness_times
+    real(wp) :: scale, residual, previous, change, overlap
+    integer :: i, step
+    logical :: sound
+
+    converged = .false.
+    residual = 0.0_wp
+    previous = huge(previous)
+    associate (lambda => found%lambda(mode), vector => found%vector(:, mode), &
+        mass_times => found%mass_times(:, mode))
+      iterations: do i = 1, most_iterations
+        call shift_to(elements, plan, pencil, lambda, found%factorizations)
+        do step = 1, 2
+          before = vector
+          call solve_with(plan, pencil, mass_times, vector)
+          call take_off(found, mode, lambda, vector)
+          call normalise(elements, pencil, vector, mass_times, scale, sound)
+          if (.not. sound) exit iterations
+        end do
+        ! What is left of the step before, as a vector: its square is no difference of squares.
+        overlap = dot_product(before, mass_times)
+        before = before - overlap*vector
+        call times_vector(elements, pencil%mass, before, stiffness_times)
+        residual = max(0.0_wp, dot_product(before, stiffness_times))*scale**2
+        call times_vector(elements, pencil%stiffness, vector, stiffness_times)
+        lambda = dot_product(vector, stiffness_times)
+        change = residual/max(gap_guess, epsilon(1.0_wp))
+        converged = change <= 0.25_wp*epsilon(1.0_wp)*lambda**2
+        if (accurate_vector) converged = converged .and. change <= (1.0e-13_wp*lambda)**2
+        if (converged) exit
+        ! The residual no longer falls because of rounding: this accuracy is final.
+        if (i > 2 .and. residual >= 0.25_wp*previous) then
+          converged = change <= 1.0e-10_wp*lambda**2
+          exit
+        end if
+        previous = residual
+      end do iterations
+      found%error(mode) = residual/max(lambda**2, tiny(lambda))
+    end associate
+  end subroutine improve
+
+  !> Takes the parts off a vector that are modes found before with nearly the same eigenvalue.
+  pure subroutine take_off(found, mode, lambda, vector)
+    type(bordered_modes_t), intent(in) :: found
+    integer, intent(in) :: mode
+    real(wp), intent(in) :: lambda
+    real(wp), intent(inout) :: vector(:)
+
+    integer :: j, pass
+
+    ! Twice: the second pass restores the orthogonality that the first loses to rounding.
+    do pass = 1, 2
+      do j = 1, mode - 1
+        if (abs(found%lambda(j) - lambda) > same_eigenvalue*abs(lambda)) cycle
+        vector = vector - dot_product(found%mass_times(:, j), vector)*found%vector(:, j)
+      end do
+    end do
+  end subroutine take_off
+
+  !> Gives a vector unit mass.
+  subroutine normalise(elements, pencil, vector, mass_times, scale, sound)
+    type(elements_t), intent(in) :: elements
+    type(element_pencil_t), intent(in) :: pencil
+    real(wp), intent(inout) :: vector(:)
+    real(wp), intent(out) :: mass_times(:) !! M times it
+    real(wp), intent(out) :: scale         !! by which it was multiplied
+    logical, intent(out) :: sound          !! false: rounding leaves nothing of it, or of its mass
+
+    real(wp) :: largest, square
+
+    sound = .false.
+    mass_times = 0.0_wp
+    scale = 0.0_wp
+    largest = maxval(abs(vector))
+    if (.not. (largest > 0.0_wp .and. largest <= huge(largest))) return
+    vector = vector/largest
+    call times_vector(elements, pencil%mass, vector, mass_times)
+    square = dot_product(vector, mass_times)
+    if (.not. square > 0.0_wp) return
+    sound = .true.
+    vector = vector/sqrt(square)
+    mass_times = mass_times/sqrt(square)
+    scale = 1.0_wp/(sqrt(square)*largest)
+  end subroutine normalise
+
+  !> Proves that the modes are complete up to the last requested one, and bounds their errors.
+  subroutine check(elements, plan, pencil, wanted, distance, found, proven)
+    type(elements_t), intent(in) :: elements
+    type(elimination_plan_t), intent(in) :: plan
+    type(element_pencil_t), intent(inout) :: pencil
+    integer, intent(in) :: wanted
+    real(wp), intent(in) :: distance !! relative, above the last requested mode, to be cleared
+    type(bordered_modes_t), intent(inout) :: found
+    logical, intent(out) :: proven
+
+    real(wp), dimension(elements%unknowns) :: products, mass_products
+    real(wp) :: limit, reach, gap
+    integer :: i, below
+
+    proven = .false.
+    do i = 1, size(margins)
+      reach = max(distance, margins(i))
+      if (i > 1 .and. margins(i) < distance) exit
+      limit = found%lambda(wanted) + reach*abs(found%lambda(wanted))
+      below = count(found%lambda < limit)
+      proven = count_below(elements, plan, pencil, limit, found%factorizations) == below
+      if (proven) exit
+    end do
+    if (.not. proven) return
+    found%clear = reach
+    do i = 1, below
+      gap = max(relative_gap(found%lambda, i), epsilon(1.0_wp))
+      ! From the last wanted mode on the next one may not be known.
+      if (i >= wanted) gap = min(gap, reach)
+      associate (z => found%vector(:, i), lambda => found%lambda(i))
+        call absolute_times_vector(elements, pencil%stiffness, z, products)
+        call absolute_times_vector(elements, pencil%mass, z, mass_products)
+        found%error(i) = found%error(i)/gap + rounding*epsilon(1.0_wp)*(dot_product(abs(z), &
+          products)/max(abs(lambda), tiny(lambda)) + dot_product(abs(z), mass_products))
+      end associate
+    end do
+    if (below < size(found%lambda)) call choose_modes(found, [(i, i=1, below)])
+    found%near = max(wanted, count(found%lambda <= found%lambda(wanted) + &
+      distance*abs(found%lambda(wanted))))
+  end subroutine check
+
+  !> Approximate lowest modes, by a Krylov space of blocks from vectors that contain everything: all
+  !! eigenvalues 1/(λ − σ) of `(K − σM)⁻¹ M` with σ below all modes.
+  subroutine search(elements, plan, pencil, wanted, block, start, factorizations)
+    type(elements_t), intent(in) :: elements
+    type(elimination_plan_t), intent(in) :: plan
+    type(element_pencil_t), intent(inout) :: pencil
+    integer, intent(in) :: wanted !! modes
+    integer, intent(in) :: block  !! vectors of a block
+    type(start_t), intent(out) :: start !! perhaps fewer of them
+    integer, intent(inout) :: factorizations
+
+    real(wp), allocatable :: basis(:, :), mass_times(:, :), products(:, :), vectors(:, :), &
+      inverse(:), last(:), next(:)
+    type(error_t), allocatable :: error
+    real(wp) :: shift, scale, seed
+    integer :: i, j, n, from, to, chosen
+    logical :: sound
+
+    call find_definite_shift(elements, plan, pencil, shift, factorizations)
+    allocate (basis(elements%unknowns, most_vectors), mass_times(elements%unknowns, most_vectors), &
+      next(elements%unknowns), last(0))
+    n = 0
+    seed = 0.5_wp
+    do j = 1, block
+      do i = 1, size(next)
+        ! Numbers without order, the same everywhere.
+        seed = modulo(seed*997.0_wp + 0.6180339887498949_wp, 1.0_wp)
+        next(i) = seed - 0.5_wp
+      end do
+      call times_vector(elements, pencil%mass, next, basis(:, n + 1))
+      call solve_with(plan, pencil, basis(:, n + 1), next)
+      call add_vector()
+    end do
+    from = 1
+    start%modes = 0
+    allocate (products(most_vectors, most_vectors), source=0.0_wp)
+    do
+      to = n
+      if (from > to) exit
+      do j = from, to
+        call solve_with(plan, pencil, mass_times(:, j), next)
+        do i = 1, to
+          products(i, j) = dot_product(mass_times(:, i), next)
+          products(j, i) = products(i, j)
+        end do
+        if (n + 1 < most_vectors) call add_vector()
+      end do
+      from = to + 1
+      chosen = min(wanted, to)
+      call largest_of(products(:to, :to), chosen, inverse, vectors, error)
+      if (allocated(error)) exit
+      if (size(last) == size(inverse) .and. chosen == wanted) then
+        if (all(abs(inverse - last) <= start_accuracy*abs(inverse))) exit
+      end if
+      last = inverse
+      if (n + block >= most_vectors) exit
+    end do
+    if (allocated(error) .or. .not. allocated(inverse)) return
+    start%modes = count(inverse > 0.0_wp)
+    start%lambda = shift + 1.0_wp/inverse(:start%modes)
+    start%direction = matmul(mass_times(:, :to), vectors(:, :start%modes))
+
+  contains
+
+    !> Adds what is new in `next` to the basis.
+    subroutine add_vector()
+      integer :: k, pass
+
+      call normalise(elements, pencil, next, mass_times(:, n + 1), scale, sound)
+      if (.not. sound) return
+      do pass = 1, 2
+        do k = 1, n
+          next = next - dot_product(mass_times(:, k), next)*basis(:, k)
+        end do
+      end do
+      call times_vector(elements, pencil%mass, next, mass_times(:, n + 1))
+      ! Nothing new but rounding.
+      if (dot_product(next, mass_times(:, n + 1)) <= (100.0_wp*epsilon(1.0_wp))**2) return
+      call normalise(elements, pencil, next, mass_times(:, n + 1), scale, sound)
+      if (.not. sound) return
+      n = n + 1
+      basis(:, n) = next
+    end subroutine add_vector
+
+  end subroutine search
+
+  !> A shift below all modes: zero, or below eigenvalues that loads have made negative.
+  subroutine find_definite_shift(elements, plan, pencil, shift, factorizations)
+    type(elements_t), intent(in) :: elements
+    type(elimination_plan_t), intent(in) :: plan
+    type(element_pencil_t), intent(inout) :: pencil
+    real(wp), intent(out) :: shift
+    integer, intent(inout) :: factorizations
+
+    integer :: i
+
+    shift = 0.0_wp
+    if (count_below(elements, plan, pencil, shift, factorizations) == 0) return
+    ! Quotients of the diagonals are about the size of eigenvalues.
+    shift = -maxval(abs(pencil%stiffness))/maxval(pencil%mass)
+    do i = 1, 60
+      if (count_below(elements, plan, pencil, shift, factorizations) == 0) return
+      shift = 4.0_wp*shift
+    end do
+  end subroutine find_definite_shift
+
+  !> The largest eigenvalues of a symmetric matrix.
+  subroutine largest_of(matrix, wanted, value, vectors, error)
+    real(wp), intent(in) :: matrix(:, :)
+    integer, intent(in) :: wanted
+    real(wp), allocatable, intent(out) :: value(:)
+    real(wp), allocatable, intent(out) :: vectors(:, :)
+    type(error_t), allocatable, intent(out) :: error
+
+    real(wp) :: unit(size(matrix, 1), size(matrix, 1))
+    integer :: i
+
+    unit = 0.0_wp
+    do i = 1, size(unit, 1)
+      unit(i, i) = 1.0_wp
+    end do
+    allocate (value(wanted))
+    call solve_dense(full_band(unit), full_band(matrix), wanted, .true., value, vectors, error)
+  end subroutine largest_of
+
+end module element_eigensolver
