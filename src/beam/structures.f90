@@ -2,7 +2,7 @@
 !! that are not free are clamped to what they turn against.
 module structures
   use beam_mesh, only: beam_mesh_t, beam_t, new_beam_mesh
-  use elastic_linkages, only: elastic_linkage_t
+  use elastic_linkages, only: elastic_linkage_t, new_elastic_linkage
   use errors, only: error_t
   use kinds, only: wp
   use linkages, only: linkage_t
@@ -10,8 +10,9 @@ module structures
   implicit none (type, external)
   private
 
-  public :: structure_t, has_beams, has_mesh, has_elastic_reactions, holds_at_change_points, &
-    find_structure_pose, damper_count, elements_replaced, vibrating_linkage, vibrating_beams
+  public :: structure_t, in_parts, has_many_parts, has_beams, has_mesh, has_elastic_reactions, &
+    holds_at_change_points, find_structure_pose, damper_count, elements_replaced, &
+    vibrating_linkage, vibrating_beams
 
   !> A linkage with the beams and the mesh of its links.
   type :: structure_t
@@ -26,6 +27,10 @@ module structures
     type(elastic_linkage_t), allocatable :: elastic !! the parts that vibrate; not allocated: binary
                                              !! links and pins, each link is a part
   end type structure_t
+
+  !> Number of parts from which the mixed form is faster than a border, and of binary links from
+  !! which it is faster than their closed forms.
+  integer, parameter :: many_parts = 12, many_links = 32
 
 contains
 
@@ -77,6 +82,37 @@ contains
       call find_pose(structure%linkage, crank, pose, error)
     end if
   end subroutine find_structure_pose
+
+  !> The structure whose frequencies are found: of many binary links, too, each is a part.
+  pure function in_parts(structure) result(divided)
+    class(structure_t), intent(in) :: structure !! with beams
+    type(structure_t) :: divided
+
+    divided%linkage = structure%linkage
+    divided%beams = structure%beams
+    divided%mesh = structure%mesh
+    divided%load_elements = structure%load_elements
+    if (allocated(structure%elastic)) then
+      divided%elastic = structure%elastic
+    else if (size(structure%beams) >= many_links) then
+      divided%elastic = new_elastic_linkage(structure%linkage, structure%beams)
+    end if
+  end function in_parts
+
+  !> Whether the equations of a linkage are solved in mixed form: it has so many parts that the cube
+  !! of their number counts, no motion is free, and no damper acts.
+  pure function has_many_parts(structure) result(has)
+    class(structure_t), intent(in) :: structure !! with or without parts
+    logical :: has
+
+    has = allocated(structure%elastic)
+    if (.not. has) return
+    associate (parts => structure%elastic%linkage)
+      has = size(parts%bodies) >= many_parts .and. .not. any(parts%drives%is_free) .and. &
+        size(structure%elastic%dampers) == 0 .and. .not. any(parts%bodies%bends .and. &
+        parts%bodies%line_density <= 0.0_wp)
+    end associate
+  end function has_many_parts
 
   !> Number of dampers between parts.
   pure function damper_count(structure) result(number)

@@ -15,6 +15,7 @@ module position_assembly
   use link_modes, only: rigid
   use linkages, only: drive_of_length
   use load_cases, only: find_unit_loads, unit_loads_t
+  use mixed_positions, only: assemble_mixed, is_held, mixed_position_t, new_mixed_position
   use part_displacements, only: border_size, border_t, find_part_chords, new_border
   use part_forces, only: find_part_forces, part_forces_t
   use part_poses, only: find_part_loads, part_loads_t, place_parts_of
@@ -22,11 +23,12 @@ module position_assembly
   use poses, only: pose_t
   use position_equations, only: assemble_equations, assemble_mass, assemble_unit_loads, &
     position_equations_t
-  use structures, only: find_structure_pose, structure_t
+  use structures, only: find_structure_pose, has_many_parts, structure_t
   implicit none (type, external)
   private
 
-  public :: assembled_t, new_assembled, assemble_position, set_border, place_parts, load_parts
+  public :: assembled_t, new_assembled, assemble_position, choose_form, set_border, place_parts, &
+    load_parts
 
   !> A linkage at a position. Of binary links and pins there are only `loads` and `unit_force`.
   type :: assembled_t
@@ -38,7 +40,8 @@ module position_assembly
     type(pose_t), allocatable :: pose            !! of points and parts
     type(part_loads_t), allocatable :: part_loads
     type(part_forces_t), allocatable :: part_forces
-    type(border_t), allocatable :: border
+    type(border_t), allocatable :: border        !! of few links
+    type(mixed_position_t), allocatable :: mixed !! of many
     real(wp), allocatable :: damper_rows(:, :)   !! (border, dampers) velocity of each for unit
                                                  !! velocities of the border; only with dampers
   end type assembled_t
@@ -54,9 +57,40 @@ contains
     if (.not. allocated(structure%elastic)) return
     here%elastic = structure%elastic
     here%model = model
-    here%border = new_border(structure%elastic, model%links)
+    if (model%mixed) then
+      here%mixed = new_mixed_position(structure%elastic, model%links)
+    else
+      here%border = new_border(structure%elastic, model%links)
+    end if
     allocate (here%pose, here%part_loads, here%part_forces)
   end function new_assembled
+
+  !> Chooses the form of the equations of a model: mixed where there are many parts, and conditions
+  !! that are independent of each other hold them at one of some positions; else with a border.
+  subroutine choose_form(structure, crank, model)
+    class(structure_t), intent(in) :: structure         !! of parts
+    real(wp), intent(in) :: crank(:)                   !! of the first drive [deg] or [m]
+    type(deformation_model_t), intent(inout) :: model  !! whose layout has no border yet
+
+    type(assembled_t) :: here
+    type(pose_t) :: pose
+    type(error_t), allocatable :: error
+    integer :: i
+
+    model%mixed = has_many_parts(structure)
+    if (model%mixed) then
+      here = new_assembled(structure, model)
+      do i = 1, size(crank)
+        call find_structure_pose(structure, crank(i), pose, error)
+        if (allocated(error)) cycle
+        call place_parts(structure, model, pose, here, error)
+        if (allocated(error)) cycle
+        if (is_held(here%elastic, here%model%links, here%pose, here%mixed)) return
+      end do
+      model%mixed = .false.
+    end if
+    call set_border(structure, crank, model)
+  end subroutine choose_form
 
   !> Gives a model the border of its linkage, as it is at most of some positions.
   subroutine set_border(structure, crank, model)
@@ -113,7 +147,11 @@ contains
         counts)
       return
     end if
-    call load_parts(structure, model, pose, here, equations%chords, error)
+    if (allocated(here%mixed)) then
+      call load_mixed(structure, model, pose, here, error)
+    else
+      call load_parts(structure, model, pose, here, equations%chords, error)
+    end if
     if (allocated(error)) then
       do i = 1, size(outcome)
         if (.not. allocated(outcome(i)%error)) outcome(i)%error = error
@@ -131,9 +169,13 @@ contains
         if (body > 0) body = here%elastic%body(body)
       end associate
     end do
+    counts%mass_matrices = counts%mass_matrices + 1
+    if (allocated(here%mixed)) then
+      counts%geometric_matrices = counts%geometric_matrices + count(here%loads%occurs)
+      return
+    end if
     call assemble_mass(here%elastic%linkage, here%model, equations)
     call add_carried_mass(here%elastic, here%pose, equations%chords, equations%pencil%mass%border)
-    counts%mass_matrices = counts%mass_matrices + 1
     call assemble_unit_loads(here%model, here%unit_force, factor, equations, counts, &
       here%part_forces%second_order)
   end subroutine assemble_position
@@ -159,6 +201,24 @@ contains
     call find_part_forces(structure%linkage, here%elastic, here%model%links, here%pose, &
       here%part_loads, here%border, chords, here%part_forces)
   end subroutine load_parts
+
+  !> Places the parts, and finds their matrices and forces in mixed form.
+  !!
+  !! Errors: those of `place_parts` and `assemble_mixed`.
+  subroutine load_mixed(structure, model, pose, here, error)
+    class(structure_t), intent(in) :: structure
+    type(deformation_model_t), intent(in) :: model
+    type(pose_t), intent(in) :: pose
+    type(assembled_t), intent(inout) :: here
+    type(error_t), allocatable, intent(out) :: error
+
+    call place_parts(structure, model, pose, here, error)
+    if (allocated(error)) return
+    call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
+      here%part_loads)
+    call assemble_mixed(structure%linkage, here%elastic, here%model%links, here%pose, &
+      here%part_loads, here%mixed, here%part_forces, error)
+  end subroutine load_mixed
 
   !> Places the parts, and renews the own modes of those whose lengths have changed, and the lengths
   !! of rams.

@@ -43,10 +43,11 @@ contains
   !> Storage for the equations of a model.
   pure function new_position_equations(model) result(equations)
     type(deformation_model_t), intent(in) :: model !! gives the size of the matrices
-    type(position_equations_t) :: equations
+    type(position_equations_t) :: equations        !! empty of one in mixed form
 
     integer :: i
 
+    if (model%mixed) return
     equations%pencil = new_bordered_pencil(model%layout)
     do i = 1, case_count
       equations%unit_stiffness(i) = equations%pencil%geometric

@@ -24,6 +24,7 @@ module position_solver
   use pose_rounding, only: pose_error
   use poses, only: pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
+  use position_modes, only: modes_of_position, yields_of_position
   use position_results, only: frequency_error, largest_error, position_result_t, position_work_t
   use positions, only: state_t
   use reduced_deflections, only: reduced_deflection
@@ -87,7 +88,9 @@ contains
     if (allocated(structure%elastic)) then
       if (all_failed(result%outcome)) return
       ! The basis of the border has turned: modes of the last positions are in another one.
-      if (work%here%border%is_new) work%continuum%tracks%length = 0
+      if (allocated(work%here%border)) then
+        if (work%here%border%is_new) work%continuum%tracks%length = 0
+      end if
       call solve_assembled(structure, models, work%here%elastic%linkage, work%here%model, &
         work%here%pose, state, request, want_shapes, work, result)
     else
@@ -124,8 +127,8 @@ contains
     type(position_result_t), intent(inout) :: result
 
     type(bordered_modes_t), allocatable :: found(:)
+    type(bordered_modes_t) :: modes
     real(wp) :: factor(case_count, size(request%speed))
-    real(wp), dimension(request%modes) :: discretisation, rounding, of_matrices, load_work
     integer :: k, n
 
     n = size(request%speed)
@@ -135,51 +138,31 @@ contains
     call move_alloc(work%continuum%found, found)
     call solve_speeds(state%crank, factor, modes_for_dampers(structure, model, request%modes), &
       want_shapes .and. request%method == by_orders .or. damper_count(structure) > 0, &
-      work%continuum, found, result%outcome, result%counts)
-    associate (chords => work%continuum%equations%chords, unit_force => work%here%unit_force)
-      if (size(unit_force) > 0) call find_deflection(structure, linkage, model, chords, pose, &
+      work%continuum, found, result%outcome, result%counts, work%here%mixed)
+    if (request%follow) allocate (result%prints(n))
+    if (size(work%here%unit_force) > 0) then
+      if (allocated(work%here%mixed)) work%continuum%equations%chords = &
+        yields_of_position(work%here)
+      call find_deflection(structure, linkage, model, work%continuum%equations%chords, pose, &
         work%here, factor, result%deflection)
-      do k = 1, n
-        if (allocated(result%outcome(k)%error)) cycle
-        if (damper_count(structure) > 0) then
-          call solve_damped_speed(structure, model, state, request, factor(:, k), k, found(k), &
-            work, result)
-          cycle
-        end if
-        discretisation = with_modes_above(found(k)%lambda, sum(order_error(model, &
-          work%continuum%equations, total_force(unit_force, factor(:, k)), found(k), &
-          found(k)%near), dim=1), request%modes, found(k)%zeros)
-        result%order_error = max(result%order_error, maxval(discretisation))
-        result%lambda(:, k) = found(k)%lambda(:request%modes)
-        call find_matrix_errors(model, chords, axial_sizes(work%here, factor(:, k)), found(k), &
-          request%modes, of_matrices, load_work)
-        load_work = load_work + second_order_work(work%here, factor(:, k), found(k), request%modes)
-        call pose_error(structure, model, state, factor(:, k), load_work, found(k), &
-          request%modes, rounding, result%counts)
-        of_matrices = of_matrices + found(k)%error(:request%modes)
-        result%error(:, k) = frequency_error(discretisation + (rounding + of_matrices))
-        if (maxval(result%error(:, k)) > request%accuracy) result%cause(k) = &
-          largest_error(discretisation, rounding, of_matrices, &
-          elastic_squares(models%continuum%layout, found(k)%vector(:, :request%modes)), &
-          found(k)%lambda(:request%modes))
-      end do
-    end associate
-    if (request%follow) then
-      allocate (result%prints(n))
-      do k = 1, n
-        if (.not. allocated(result%outcome(k)%error)) result%prints(k) = prints_of(model, &
-          work%continuum%equations%chords, found(k), request%modes)
-      end do
     end if
+    do k = 1, n
+      if (allocated(result%outcome(k)%error)) cycle
+      if (allocated(work%here%mixed)) then
+        call modes_of_position(work%here, found(k), work%continuum%equations, modes)
+        call finish_speed(structure, linkage, work%here%model, pose, state, request, factor(:, k), &
+          k, want_shapes(k), modes, work, result, found(k))
+      else if (damper_count(structure) > 0) then
+        call solve_damped_speed(structure, model, state, request, factor(:, k), k, found(k), work, &
+          result)
+        call keep_speed(structure, linkage, model, pose, request, k, want_shapes(k), found(k), &
+          work, result)
+      else
+        call finish_speed(structure, linkage, model, pose, state, request, factor(:, k), k, &
+          want_shapes(k), found(k), work, result)
+      end if
+    end do
     select case (request%method)
-    case (by_orders)
-      do k = 1, n
-        if (want_shapes(k) .and. .not. allocated(result%outcome(k)%error)) then
-          call sample_reduced(linkage, model, work%continuum%equations%chords, pose, found(k), &
-            request, result%shapes(k), structure%elastic)
-          result%counts%shapes = result%counts%shapes + request%modes
-        end if
-      end do
     case (by_link_modes)
       call solve_mesh(structure, models%mesh, state, work%here%loads, request, factor, &
         want_shapes, work%mesh, result)
@@ -188,6 +171,68 @@ contains
     end select
     call move_alloc(found, work%continuum%found)
   end subroutine solve_assembled
+
+  !> Takes the modes of a speed, with their errors.
+  subroutine finish_speed(structure, linkage, model, pose, state, request, factor, k, want_shapes, &
+    found, work, result, mixed_modes)
+    type(structure_t), intent(in) :: structure
+    type(linkage_t), intent(in) :: linkage          !! whose bodies are the links of the model
+    type(deformation_model_t), intent(in) :: model
+    type(pose_t), intent(in) :: pose                !! of this linkage
+    type(state_t), intent(in) :: state              !! of the linkage that moves
+    type(mode_request_t), intent(in) :: request
+    real(wp), intent(in) :: factor(case_count)
+    integer, intent(in) :: k                        !! number of the speed
+    logical, intent(in) :: want_shapes
+    type(bordered_modes_t), intent(in) :: found
+    type(position_work_t), intent(inout) :: work
+    type(position_result_t), intent(inout) :: result
+    type(bordered_modes_t), intent(in), optional :: mixed_modes !! the same in mixed form
+
+    real(wp), dimension(request%modes) :: discretisation, rounding, of_matrices, load_work
+
+    associate (equations => work%continuum%equations, here => work%here)
+      discretisation = with_modes_above(found%lambda, sum(order_error(model, equations, &
+        total_force(here%unit_force, factor), found, found%near), dim=1), request%modes, &
+        found%zeros)
+      result%order_error = max(result%order_error, maxval(discretisation))
+      result%lambda(:, k) = found%lambda(:request%modes)
+      call find_matrix_errors(model, equations%chords, axial_sizes(here, factor), found, &
+        request%modes, of_matrices, load_work)
+      load_work = load_work + second_order_work(here, factor, found, request%modes, mixed_modes)
+      call pose_error(structure, model, state, factor, load_work, found, request%modes, rounding, &
+        result%counts, mixed_modes)
+      of_matrices = of_matrices + found%error(:request%modes)
+      result%error(:, k) = frequency_error(discretisation + (rounding + of_matrices))
+      if (maxval(result%error(:, k)) > request%accuracy) result%cause(k) = &
+        largest_error(discretisation, rounding, of_matrices, elastic_squares(model%layout, &
+        found%vector(:, :request%modes)), found%lambda(:request%modes))
+    end associate
+    call keep_speed(structure, linkage, model, pose, request, k, want_shapes, found, work, result)
+  end subroutine finish_speed
+
+  !> Keeps what is asked for of the modes of a speed.
+  subroutine keep_speed(structure, linkage, model, pose, request, k, want_shapes, found, work, &
+    result)
+    type(structure_t), intent(in) :: structure
+    type(linkage_t), intent(in) :: linkage
+    type(deformation_model_t), intent(in) :: model
+    type(pose_t), intent(in) :: pose
+    type(mode_request_t), intent(in) :: request
+    integer, intent(in) :: k
+    logical, intent(in) :: want_shapes
+    type(bordered_modes_t), intent(in) :: found
+    type(position_work_t), intent(in) :: work
+    type(position_result_t), intent(inout) :: result
+
+    associate (chords => work%continuum%equations%chords)
+      if (request%follow) result%prints(k) = prints_of(model, chords, found, request%modes)
+      if (.not. want_shapes .or. request%method /= by_orders) return
+      call sample_reduced(linkage, model, chords, pose, found, request, result%shapes(k), &
+        structure%elastic)
+      result%counts%shapes = result%counts%shapes + request%modes
+    end associate
+  end subroutine keep_speed
 
   !> Largest static deflection of every link / its length, or that of one of its ways, at every
   !! speed.

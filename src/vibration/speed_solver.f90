@@ -5,6 +5,7 @@ module speed_solver
   use errors, only: error_t, outcome_t
   use kinds, only: wp
   use ledger, only: ledger_t
+  use mixed_positions, only: find_mixed_modes, mixed_position_t
   use position_equations, only: new_position_equations, position_equations_t, set_speed
   use start_extrapolation, only: extrapolated_start, remember, track_t
   implicit none (type, external)
@@ -49,7 +50,8 @@ contains
   !!
   !! Errors, speed by speed in `outcome`: no start leads to modes that are proven complete. The
   !! modes of the last positions are then forgotten.
-  subroutine solve_speeds(place, factor, modes, accurate_vectors, work, found, outcome, counts)
+  subroutine solve_speeds(place, factor, modes, accurate_vectors, work, found, outcome, counts, &
+    mixed)
     real(wp), intent(in) :: place              !! crank angle, by which modes are extrapolated [deg]
     real(wp), intent(in) :: factor(:, :)       !! (cases, speeds) of the unit loads: ω2², α2, 1
     integer, intent(in) :: modes               !! number wanted
@@ -60,6 +62,8 @@ contains
                                                       !! again
     type(outcome_t), intent(inout) :: outcome(:)    !! (speeds) an error already present is kept
     type(ledger_t), intent(inout) :: counts    !! of the work done
+    type(mixed_position_t), intent(inout), optional :: mixed !! in which modes are found; absent: in
+                                               !! the equations of `work`
 
     type(start_t) :: start
     type(error_t), allocatable :: error
@@ -71,10 +75,15 @@ contains
         work%tracks(k)%length = 0
         cycle
       end if
-      call set_speed(work%equations, factor(:, k))
       start = extrapolated_start(work%tracks(k), place, longest_step)
-      call find_bordered_modes(work%equations%pencil, modes, accurate_vectors(k), start, found(k), &
-        error, work%clearance)
+      if (present(mixed)) then
+        call find_mixed_modes(mixed, factor(:, k), modes, accurate_vectors(k), start, &
+          work%clearance, found(k), error)
+      else
+        call set_speed(work%equations, factor(:, k))
+        call find_bordered_modes(work%equations%pencil, modes, accurate_vectors(k), start, &
+          found(k), error, work%clearance)
+      end if
       counts%factorizations = counts%factorizations + found(k)%factorizations
       counts%reduced_solutions = counts%reduced_solutions + found(k)%reduced_solutions
       counts%full_solutions = counts%full_solutions + found(k)%full_solutions

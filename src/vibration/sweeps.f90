@@ -4,6 +4,7 @@ module sweeps
   use ledger, only: ledger_t
   use position_results, only: position_result_t
   use positions, only: positions_t
+  use structures, only: structure_t
   use vibration_models, only: mode_request_t, vibration_models_t
   implicit none (type, external)
   private
@@ -13,6 +14,7 @@ module sweeps
   !> One result for each different position.
   type :: sweep_t
     type(mode_request_t) :: request                    !! modes, method, speeds, loads
+    type(structure_t) :: structure                     !! that vibrates
     type(vibration_models_t) :: models                 !! of the first attempt; positions that
                                                        !! need higher orders have others
     type(position_result_t), allocatable :: results(:) !! (states); empty where there is no pose

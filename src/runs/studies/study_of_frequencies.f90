@@ -19,6 +19,7 @@ module study_of_frequencies
   use run_totals, only: run_totals_t, widen
   use study_findings, only: judge_deflection, most_deflection, note_failure_here, note_warning, &
     unit_of_positions
+  use structures, only: in_parts
   use study_types, only: add_study, study_t, variant_run_t
   use sweep_bytes, only: pass_result
   use sweep_extremes, only: row_place_t, widen_sweep_extremes
@@ -82,7 +83,7 @@ contains
         if (attempt == 1) then
           call take_first_models(run, store, job)
         else
-          call new_vibration_models(run%results%mechanism%structure_t, positions, job%states, &
+          call new_vibration_models(sweep%structure, positions, job%states, &
             sweep%request, sweep%request%accuracy, store, job%models, sweep%counts, run%error)
         end if
         if (allocated(run%error)) return
@@ -109,7 +110,7 @@ contains
     type(link_store_t), intent(inout) :: store
     type(sweep_job_t), intent(inout) :: job           !! begun
 
-    associate (structure => run%results%mechanism%structure_t, &
+    associate (structure => run%results%found%sweep%structure, &
         sweep => run%results%found%sweep)
       if (allocated(run%models)) then
         job%models = run%models
@@ -144,6 +145,11 @@ contains
       request = mode_request_of(model, run%results%mechanism)
       call begin_sweep(request, drawn_states(model, positions, request%speed), &
         size(positions%states), run%results%found%sweep)
+      if (request%method == by_orders) then
+        run%results%found%sweep%structure = in_parts(run%results%mechanism)
+      else
+        run%results%found%sweep%structure = run%results%mechanism%structure_t
+      end if
       job%states = by_crank_angle(positions)
       job%before = block_count(positions%before)
     end associate
@@ -182,7 +188,7 @@ contains
     class(sweep_job_t), intent(inout) :: self
     integer, intent(in) :: number
 
-    call solve_block(self%variant%results%mechanism%structure_t, &
+    call solve_block(self%variant%results%found%sweep%structure, &
       self%variant%results%found%positions, &
       self%models, block_of(self%states, number - self%before), &
       self%variant%results%found%sweep)

@@ -22,7 +22,7 @@ contains
     type(variant_run_t), intent(inout), target :: run
 
     associate (found => run%results%found)
-      call follow_loci(run%results%mechanism%structure_t, found%positions, found%sweep, found%loci)
+      call follow_loci(found%sweep%structure, found%positions, found%sweep, found%loci)
     end associate
   end subroutine compute_loci
 

@@ -114,9 +114,13 @@ contains
     select case (sweep%request%method)
     case (by_orders)
       text = "orders chosen by the program, one element per link"// &
-        between_masses(sweep%models%continuum)//": "//orders_of(sweep%models%continuum)// &
-        ", solved in deformation coordinates: "// &
-        to_string(sweep%models%continuum%layout%unknowns)//" unknowns"
+        between_masses(sweep%models%continuum)//": "//orders_of(sweep%models%continuum)
+      if (sweep%models%continuum%mixed) then
+        text = text//", solved in mixed form"
+      else
+        text = text//", solved in deformation coordinates: "// &
+          to_string(sweep%models%continuum%layout%unknowns)//" unknowns"
+      end if
     case (by_link_modes)
       text = "mesh of the deck, solved in deformation coordinates: "//to_string(unknowns)// &
         " unknowns"

@@ -46,6 +46,7 @@ module deformation_model
                                                 !! else quadratic along the link
     type(link_modes_t), allocatable :: links(:) !! (bodies) own modes, or a rigid link
     type(layout_t) :: layout                    !! of the unknowns in the bordered matrices
+    logical :: mixed = .false.                  !! many links: equations are in mixed form
   end type deformation_model_t
 
 contains

@@ -15,7 +15,8 @@ module order_choice
   use linkages, only: body_t, linkage_t
   use order_changes, only: part_count, part_of
   use order_errors, only: order_error
-  use position_assembly, only: assemble_position, assembled_t, new_assembled, set_border
+  use position_assembly, only: assemble_position, assembled_t, choose_form, new_assembled
+  use position_modes, only: modes_of_position
   use positions, only: positions_t
   use speed_solver, only: new_speed_work, solve_speeds, speed_work_t
   use structures, only: structure_t
@@ -170,7 +171,7 @@ contains
           size(degrees)), spread(.false., 1, size(degrees)), model, error, store, degrees, &
           structure%elastic%held)
         if (allocated(error)) return
-        call set_border(structure, [(positions%states(chosen(i))%crank, i=1, size(chosen))], model)
+        call choose_form(structure, [(positions%states(chosen(i))%crank, i=1, size(chosen))], model)
       else
         call new_deformation_model(linkage, beams, spread(0, 1, size(degrees)), spread(0, 1, &
           size(degrees)), spread(.false., 1, size(degrees)), model, error, store, degrees)
@@ -377,6 +378,7 @@ contains
     type(speed_work_t) :: work
     type(assembled_t) :: here
     type(bordered_modes_t), allocatable :: found(:)
+    type(bordered_modes_t) :: modes
     type(outcome_t), allocatable :: outcome(:)
     real(wp), allocatable :: tried(:, :), present_force(:, :)
     integer :: i, k
@@ -401,14 +403,18 @@ contains
           if (here%border%is_new) work%tracks%length = 0
         end if
         call solve_speeds(state%crank, tried, demand%modes, spread(.false., 1, size(found)), work, &
-          found, outcome, counts)
+          found, outcome, counts, here%mixed)
       end associate
       do k = 1, size(found)
         if (allocated(outcome(k)%error)) cycle
         present_force = total_force(here%unit_force, tried(:, k))
         call add_force_range(linkage, present_force, sample)
         sample%highest = max(sample%highest, maxval(abs(found(k)%lambda(:demand%modes))))
-        if (allocated(structure%elastic)) then
+        if (allocated(here%mixed)) then
+          call modes_of_position(here, found(k), work%equations, modes)
+          sample%error = max(sample%error, maxval(order_error(here%model, work%equations, &
+            present_force, modes, modes%near), dim=2))
+        else if (allocated(structure%elastic)) then
           sample%error = max(sample%error, maxval(order_error(here%model, work%equations, &
             present_force, found(k), found(k)%near), dim=2))
         else

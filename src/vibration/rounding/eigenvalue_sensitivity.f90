@@ -18,7 +18,7 @@ module eigenvalue_sensitivity
   implicit none (type, external)
   private
 
-  public :: residual_work, eigenvalue_change
+  public :: residual_work
 
 contains
 
@@ -44,16 +44,5 @@ contains
       end associate
     end do
   end function residual_work
-
-  !> First-order change of the lowest eigenvalues, `yᵀ(ΔK_G − λ ΔM) y` [1/s²].
-  pure function eigenvalue_change(changed, found, own_work) result(change)
-    type(bordered_pencil_t), intent(in) :: changed !! matrices after the change
-    type(bordered_modes_t), intent(in) :: found    !! modes of the matrices before the change
-    real(wp), intent(in) :: own_work(:)            !! (modes) `residual_work` before the change
-                                                   !! [1/s²]
-    real(wp) :: change(size(own_work))
-
-    change = residual_work(changed, found, size(own_work)) - own_work
-  end function eigenvalue_change
 
 end module eigenvalue_sensitivity

@@ -8,12 +8,13 @@ module pose_rounding
   use bridges, only: bridge_at, edge_sine, place_on_path, thinned
   use deformation_model, only: deformation_model_t
   use eigenvalue_gaps, only: relative_error
-  use eigenvalue_sensitivity, only: eigenvalue_change, residual_work
+  use eigenvalue_sensitivity, only: residual_work
   use elastic_linkages, only: scaled_link
   use errors, only: error_t, outcome_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use ledger, only: ledger_t
+  use mixed_positions, only: work_in
   use linkages, only: group_by_newton, group_dyad, linkage_t, path_t
   use load_cases, only: case_count
   use poses, only: pose_t
@@ -42,6 +43,9 @@ module pose_rounding
   !! position.
   real(wp), parameter :: usual_spread = 2.0_wp
 
+  !> Up to this number of links each length is changed by itself; of more so many sums are.
+  integer, parameter :: most_single = 24, sums_of_many = 8
+
   !> Relative change of a length for the sensitivities, before the factor sin².
   real(wp), parameter :: small_change = 1.0e-3_wp
 
@@ -59,7 +63,8 @@ contains
   !! longer nor a shorter link, the error is at least 1. Where links are more than needed, rigid
   !! ones among them fit with their own lengths alone: their share is that far from dead points. On
   !! a bridge over a change point lengths do not determine the place, but its nodes do.
-  subroutine pose_error(structure, model, state, factor, load_work, found, modes, error, counts)
+  subroutine pose_error(structure, model, state, factor, load_work, found, modes, error, counts, &
+    mixed_modes)
     type(structure_t), intent(in) :: structure     !! whose position it is
     type(deformation_model_t), intent(in) :: model !! of continuous links at this position
     type(state_t), intent(in) :: state             !! with a pose
@@ -69,6 +74,7 @@ contains
     integer, intent(in) :: modes                   !! number, lowest first
     real(wp), intent(out) :: error(:)              !! (modes) relative, of eigenvalues
     type(ledger_t), intent(inout) :: counts        !! of poses found and matrices assembled
+    type(bordered_modes_t), intent(in), optional :: mixed_modes !! the same in mixed form
 
     real(wp) :: sine, least_sine, spread, energy, multiple, far(modes)
     integer :: bridge, i
@@ -101,7 +107,8 @@ contains
     if (sine >= least_sine .and. .not. allocated(state%pose%coefficients)) then
       error = 2.0_wp*multiple*far
     else
-      call find_changes(structure, model, state, sine, factor, found, far, error, counts)
+      call find_changes(structure, model, state, sine, factor, found, far, error, counts, &
+        mixed_modes)
       error = 2.0_wp*multiple*error
       ! Forces that cancel at every length leave their rounding.
       if (allocated(structure%elastic)) error = error + near_multiple*epsilon(1.0_wp)* &
@@ -112,7 +119,8 @@ contains
 
   !> Relative errors of eigenvalues by their changes: ε times the sensitivity to the lengths of the
   !! links; on a bridge, and towards a limit, `far` and the change with fewer nodes.
-  subroutine find_changes(structure, model, state, sine, factor, found, far, error, counts)
+  subroutine find_changes(structure, model, state, sine, factor, found, far, error, counts, &
+    mixed_modes)
     type(structure_t), intent(in) :: structure
     type(deformation_model_t), intent(in) :: model
     type(state_t), intent(in) :: state
@@ -122,19 +130,21 @@ contains
     real(wp), intent(in) :: far(:)            !! (modes) the error of a linkage far from dead points
     real(wp), intent(out) :: error(:)         !! (modes)
     type(ledger_t), intent(inout) :: counts
+    type(bordered_modes_t), intent(in), optional :: mixed_modes
 
-    real(wp) :: own_work(size(far)), change(size(far))
+    real(wp) :: own_work(size(far)), change(size(far)), squares(size(far))
+    real(wp), allocatable :: trial(:, :)
     type(position_equations_t) :: equations
     type(assembled_t) :: here
     type(structure_t) :: other
-    integer :: b, side
+    integer :: b, i, side
     logical :: reached
 
     equations = new_position_equations(model)
     here = new_assembled(structure, model)
     call assemble_lengths(structure, model, state%crank, factor, here, equations, reached, counts)
     own_work = 0.0_wp
-    if (reached) own_work = residual_work(equations%pencil, found, size(far))
+    if (reached) call find_work(own_work)
     if (allocated(state%pose%coefficients)) then
       other = structure
       call thin_path(other%linkage%path, state%crank)
@@ -142,22 +152,30 @@ contains
       error = merge(far + change, 1.0_wp, reached)
       return
     end if
+    call list_trials(size(structure%linkage%bodies), trial)
     error = 0.0_wp
-    do b = 1, size(structure%linkage%bodies)
+    squares = 0.0_wp
+    do i = 1, size(trial, 2)
       do side = 1, -1, -2
         other = structure
-        call scale_link(other, b, 1.0_wp + side*small_change*sine**2)
+        do b = 1, size(trial, 1)
+          if (abs(trial(b, i)) > 0.0_wp) call scale_link(other, b, 1.0_wp + &
+            side*trial(b, i)*small_change*sine**2)
+        end do
         call change_to(other)
         if (reached) exit
       end do
       if (reached) then
-        error = error + epsilon(1.0_wp)*change/(small_change*sine**2)
-      else if (size(structure%linkage%redundancies) > 0) then
-        error = error + far
+        change = epsilon(1.0_wp)*change/(small_change*sine**2)
+        error = error + change
+        squares = squares + change**2
       else
-        error = error + 1.0_wp
+        change = merge(far, 1.0_wp, size(structure%linkage%redundancies) > 0)
+        error = error + change
+        squares = squares + size(trial, 2)*change**2
       end if
     end do
+    if (size(trial, 2) < size(trial, 1)) error = sqrt(size(trial, 1)*squares/size(trial, 2))
 
   contains
 
@@ -167,11 +185,47 @@ contains
 
       call assemble_lengths(other, model, state%crank, factor, here, equations, reached, counts)
       change = 0.0_wp
-      if (reached) change = near_multiple*abs(eigenvalue_change(equations%pencil, found, &
-        own_work))/max(abs(found%lambda(:size(far))), tiny(1.0_wp))
+      if (.not. reached) return
+      call find_work(change)
+      change = near_multiple*abs(change - own_work)/max(abs(found%lambda(:size(far))), tiny(1.0_wp))
     end subroutine change_to
 
+    !> What the matrices at hand do in the modes.
+    subroutine find_work(work)
+      real(wp), intent(out) :: work(:)
+
+      if (present(mixed_modes)) then
+        work = work_in(here%mixed, factor, mixed_modes, size(work))
+      else
+        work = residual_work(equations%pencil, found, size(work))
+      end if
+    end subroutine find_work
+
   end subroutine find_changes
+
+  !> Which lengths are changed together, and in which sense: of few links each by itself, of many
+  !! some sums of all with signs without order. The mean square of such changes is the sum of the
+  !! squares of those of single links, and their sum is at most √n times the root of that.
+  pure subroutine list_trials(links, trial)
+    integer, intent(in) :: links                     !! number
+    real(wp), allocatable, intent(out) :: trial(:, :) !! (links, trials)
+
+    real(wp) :: seed
+    integer :: b, i
+
+    allocate (trial(links, merge(links, sums_of_many, links <= most_single)), source=0.0_wp)
+    seed = 0.5_wp
+    do i = 1, size(trial, 2)
+      if (links <= most_single) then
+        trial(i, i) = 1.0_wp
+        cycle
+      end if
+      do b = 1, links
+        seed = modulo(997.0_wp*seed + 0.6180339887498949_wp, 1.0_wp)
+        trial(b, i) = merge(1.0_wp, -1.0_wp, seed < 0.5_wp)
+      end do
+    end do
+  end subroutine list_trials
 
   !> The bridge of a path at a coordinate; 0: it is towards a limit.
   pure function bridge_of(path, crank) result(number)

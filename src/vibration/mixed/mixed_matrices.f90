@@ -1,0 +1,588 @@
+!> The matrices of the mixed form at a position, element by element, and the work of its loads.
+module mixed_matrices
+  use border_loads, only: add_link_work
+  use border_rows, only: add_line, add_rigid, add_spring, add_stretch, line_direction, spring_way
+  use elastic_linkages, only: elastic_linkage_t, is_piece, spring_t
+  use kinds, only: wp
+  use link_modes, only: link_modes_t, rigid
+  use linkages, only: normal_to, turned
+  use load_cases, only: constant_case
+  use mixed_form, only: mixed_form_t
+  use part_force_types, only: part_forces_t
+  use part_poses, only: part_loads_t
+  use poses, only: pose_t
+  use reduced_assembly, only: add_link_mass, add_link_stiffness
+  implicit none (type, external)
+  private
+
+  public :: assemble_mixed_stiffness, assemble_mixed_mass, add_mixed_geometric, mixed_work
+
+  !> Most curves and displacements of a part that bends.
+  integer, parameter :: most = 8
+
+  !> A part among the unknowns of its element: own modes, elongation, then what moves it.
+  type :: local_t
+    integer :: own = 0                     !! own modes, across and along
+    integer :: moving = 0                  !! curves of held ends and displacements
+    integer :: curves = 0                  !! of these, the first
+    real(wp) :: across(4, most) = 0.0_wp   !! as of `chords_t`, for each of what moves it
+    real(wp) :: along(2, most) = 0.0_wp
+    real(wp) :: turn(most) = 0.0_wp
+    real(wp) :: rotation(2, most) = 0.0_wp !! of both ends, if they are held
+  end type local_t
+
+contains
+
+  !> What the unknowns of its element do to a part.
+  pure function place_locally(form, elastic, link, part, pose) result(local)
+    type(mixed_form_t), intent(in) :: form         !! of the linkage
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    type(link_modes_t), intent(in) :: link         !! of the part
+    integer, intent(in) :: part                    !! its number
+    type(pose_t), intent(in) :: pose               !! of points and parts
+    type(local_t) :: local
+
+    real(wp) :: axis(2), normal(2)
+    integer :: i, j, k, first, last, at
+
+    local%own = link%modes + link%axial_modes
+    local%curves = link%curves
+    axis = pose%direction(:, part)
+    normal = normal_to(axis)
+    do i = 1, link%curves
+      local%across(2 + i, i) = 1.0_wp
+    end do
+    first = form%elements%first(part) + local%own
+    if (link%bends) first = first + 1 + link%curves
+    last = form%elements%first(part + 1) - 1
+    j = local%curves
+    do i = first, last
+      at = form%elements%unknown(i) - form%displacements
+      if (at > form%numbers%unknowns) exit
+      j = j + 1
+      ! Of a rigid link only its first pin and its rotation count.
+      if (j > most) exit
+      do k = 1, 2
+        associate (point => merge(elastic%linkage%bodies(part)%first_pin, &
+            elastic%linkage%bodies(part)%last_pin, k == 1), rotation => elastic%rotation(k, part))
+          if (form%numbers%point(point) > 0) then
+            if (at == form%numbers%point(point)) then
+              local%along(k, j) = axis(1)*form%unit
+              local%across(k, j) = normal(1)*form%unit
+            else if (at == form%numbers%point(point) + 1) then
+              local%along(k, j) = axis(2)*form%unit
+              local%across(k, j) = normal(2)*form%unit
+            end if
+          end if
+          if (rotation > 0) then
+            if (at == form%numbers%rotation(rotation)) local%rotation(k, j) = &
+              form%unit/form%numbers%size_of
+          end if
+        end associate
+      end do
+    end do
+    local%moving = min(j, most)
+    if (.not. link%bends) then
+      local%turn = local%rotation(1, :)
+    else if (is_piece(elastic, part)) then
+      ! From the rotations of held ends: the ends of a short piece move by the same amount.
+      local%turn = local%rotation(1, :) + local%rotation(2, :)
+      local%turn(1) = local%turn(1) - link%curve_rotation(1)
+      if (link%curves == 2) local%turn = 0.5_wp*local%turn
+    else
+      local%turn = (local%across(2, :) - local%across(1, :))/link%length
+    end if
+  end function place_locally
+
+  !> `K`: the unit matrix of strains, and the conditions.
+  subroutine assemble_mixed_stiffness(form, elastic, links, pose, value)
+    type(mixed_form_t), intent(in) :: form         !! of the linkage
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    type(link_modes_t), intent(in) :: links(:)     !! (parts) of these lengths
+    type(pose_t), intent(in) :: pose               !! of points and parts
+    real(wp), intent(out) :: value(:)              !! of the elements
+
+    real(wp) :: row(form%numbers%unknowns)
+    real(wp), allocatable :: rows(:, :)
+    integer :: i, k
+
+    value = 0.0_wp
+    row = 0.0_wp
+    do k = 1, size(links)
+      if (links(k)%bends) then
+        call add_part_conditions(form, links(k), place_locally(form, elastic, links(k), k, pose), &
+          k, value)
+      else
+        allocate (rows(form%numbers%unknowns, 2*(1 + size(elastic%linkage%bodies(k)%further))), &
+          source=0.0_wp)
+        call add_rigid(elastic, form%numbers, pose, k, rows)
+        do i = 1, size(rows, 2)
+          call add_condition(form, k, form%elements%first(k + 1) - size(rows, 2) + i - 1, 1.0_wp, &
+            rows(:, i), value)
+        end do
+        deallocate (rows)
+      end if
+    end do
+    do i = 1, size(elastic%springs)
+      k = form%spring + i
+      call add_spring(elastic, form%numbers, pose, elastic%springs(i), row)
+      call add_spring_condition(form, elastic%springs(i), k, row, value)
+      call clear(form, k, row)
+    end do
+    do i = 1, size(elastic%contact)
+      if (form%numbers%line_constraint(i) == 0) cycle
+      k = form%line + i
+      call add_line(elastic, form%numbers, pose, i, normal_to(line_direction(elastic, pose, i)), &
+        row)
+      call add_condition(form, k, form%elements%first(k + 1) - 1, 1.0_wp, row, value)
+      call clear(form, k, row)
+    end do
+    do i = 1, size(elastic%linkage%drives)
+      if (form%numbers%drive_constraint(i) == 0) cycle
+      k = form%drive + i
+      call add_line(elastic, form%numbers, pose, elastic%linkage%drives(i)%slider, &
+        line_direction(elastic, pose, elastic%linkage%drives(i)%slider), row)
+      call add_condition(form, k, form%elements%first(k + 1) - 1, 1.0_wp, row, value)
+      call clear(form, k, row)
+    end do
+  end subroutine assemble_mixed_stiffness
+
+  !> Elongation and curves of a part, in units in which displacements have the factor 1.
+  subroutine add_part_conditions(form, link, local, element, value)
+    type(mixed_form_t), intent(in) :: form
+    type(link_modes_t), intent(in) :: link
+    type(local_t), intent(in) :: local
+    integer, intent(in) :: element
+    real(wp), intent(inout) :: value(:)
+
+    real(wp) :: row(most), sense
+    integer :: i, j, n, strain, multiplier
+
+    n = form%elements%first(element + 1) - form%elements%first(element)
+    call set_diagonal(form, element, spread(1.0_wp, 1, local%own + 1 + local%curves), value)
+    do i = 0, local%curves
+      strain = local%own + 1 + i
+      multiplier = local%own + 1 + local%moving + 1 + i
+      if (i == 0) then
+        row = local%along(1, :) - local%along(2, :)
+        call set(strain, link%elongation/form%unit)
+      else
+        sense = merge(-1.0_wp, 1.0_wp, i == 2)
+        row = -link%length*(local%rotation(1, :) + sense*local%rotation(2, :))
+        if (i == 1) row = row + local%curves*(local%across(2, :) - local%across(1, :))
+        call set(strain, link%length*link%curve_rotation(i)/form%unit)
+      end if
+      do j = local%curves + 1, local%moving
+        call set(local%own + 1 + j, row(j)/form%unit)
+      end do
+    end do
+
+  contains
+
+    !> Sets what multiplies an unknown in the condition.
+    subroutine set(unknown, entry)
+      integer, intent(in) :: unknown
+      real(wp), intent(in) :: entry
+
+      associate (start => form%elements%value_first(element) - 1)
+        value(start + (unknown - 1)*n + multiplier) = entry
+        value(start + (multiplier - 1)*n + unknown) = entry
+      end associate
+    end subroutine set
+
+  end subroutine add_part_conditions
+
+  !> Adds a condition between displacements.
+  pure subroutine add_condition(form, element, place, factor, row, value)
+    type(mixed_form_t), intent(in) :: form
+    integer, intent(in) :: element
+    integer, intent(in) :: place     !! of its multiplier in the list of all elements' unknowns
+    real(wp), intent(in) :: factor   !! of the row
+    real(wp), intent(in) :: row(:)   !! (displacements)
+    real(wp), intent(inout) :: value(:)
+
+    integer :: i, n, first, start, at, multiplier
+
+    first = form%elements%first(element)
+    n = form%elements%first(element + 1) - first
+    start = form%elements%value_first(element) - 1
+    multiplier = place - first + 1
+    do i = 1, n
+      at = form%elements%unknown(first + i - 1) - form%displacements
+      if (at < 1 .or. at > size(row)) cycle
+      value(start + (i - 1)*n + multiplier) = factor*row(at)
+      value(start + (multiplier - 1)*n + i) = factor*row(at)
+    end do
+  end subroutine add_condition
+
+  !> Adds the condition of a spring; of one that turns in units of a displacement, too.
+  pure subroutine add_spring_condition(form, spring, element, row, value)
+    type(mixed_form_t), intent(in) :: form
+    type(spring_t), intent(in) :: spring
+    integer, intent(in) :: element
+    real(wp), intent(in) :: row(:)
+    real(wp), intent(inout) :: value(:)
+
+    real(wp) :: factor
+    integer :: n, start
+
+    factor = merge(form%numbers%size_of, 1.0_wp, spring%turns)
+    n = form%elements%first(element + 1) - form%elements%first(element)
+    start = form%elements%value_first(element) - 1
+    value(start + 1) = 1.0_wp
+    call add_condition(form, element, form%elements%first(element + 1) - 1, -factor, row, value)
+    value(start + n) = factor/(form%unit*sqrt(spring%stiffness))
+    value(start + (n - 1)*n + 1) = value(start + n)
+  end subroutine add_spring_condition
+
+  !> Sets the entries of a row to zero that an element may have set.
+  pure subroutine clear(form, element, row)
+    type(mixed_form_t), intent(in) :: form
+    integer, intent(in) :: element
+    real(wp), intent(inout) :: row(:)
+
+    integer :: i, at
+
+    do i = form%elements%first(element), form%elements%first(element + 1) - 1
+      at = form%elements%unknown(i) - form%displacements
+      if (at >= 1 .and. at <= size(row)) row(at) = 0.0_wp
+    end do
+  end subroutine clear
+
+  !> `M`.
+  pure subroutine assemble_mixed_mass(form, elastic, links, pose, value)
+    type(mixed_form_t), intent(in) :: form         !! of the linkage
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    type(link_modes_t), intent(in) :: links(:)     !! (parts) of these lengths
+    type(pose_t), intent(in) :: pose               !! of points and parts
+    real(wp), intent(out) :: value(:)              !! of the elements [s²]
+
+    type(local_t) :: local
+    real(wp) :: square(most, most)
+    integer :: i, j, k, n, start
+
+    value = 0.0_wp
+    do k = 1, size(links)
+      local = place_locally(form, elastic, links(k), k, pose)
+      call add_part_mass(form, links(k), local, k, value)
+    end do
+    do i = 1, size(elastic%is_fixed)
+      k = form%point + i
+      n = form%elements%first(k + 1) - form%elements%first(k)
+      start = form%elements%value_first(k) - 1
+      do j = 1, n
+        value(start + (j - 1)*n + j) = elastic%linkage%pin_mass(i)*form%unit**2
+      end do
+    end do
+    do i = 1, size(elastic%carried)
+      associate (this => elastic%carried(i))
+        k = form%carried + i
+        n = form%elements%first(k + 1) - form%elements%first(k)
+        start = form%elements%value_first(k)
+        square(:n, :n) = 0.0_wp
+        call add_carried(form, elastic, pose, i, square(:n, :n))
+        value(start:start + n*n - 1) = reshape(square(:n, :n), [n*n])
+      end associate
+    end do
+    k = form%cut
+    do i = 1, size(elastic%ways)
+      do j = 1, size(elastic%ways(i)%cuts)
+        k = k + 1
+        if (elastic%ways(i)%cuts(j)%rotation > 0) value(form%elements%value_first(k)) = &
+          elastic%ways(i)%cuts(j)%inertia*(form%unit/form%numbers%size_of)**2
+      end do
+    end do
+  end subroutine assemble_mixed_mass
+
+  !> The mass of a part.
+  pure subroutine add_part_mass(form, link, local, element, value)
+    type(mixed_form_t), intent(in) :: form
+    type(link_modes_t), intent(in) :: link
+    type(local_t), intent(in) :: local
+    integer, intent(in) :: element
+    real(wp), intent(inout) :: value(:)
+
+    real(wp) :: border(local%moving, local%moving), coupling(local%moving, link%modes), &
+      axial(local%moving, link%axial_modes), motion(3, local%moving)
+    integer :: first
+
+    associate (m => local%moving)
+      border = 0.0_wp
+      if (link%bends) then
+        call add_link_mass(link, local%across(:2 + link%curves, :m), local%along(:, :m), border, &
+          coupling, axial)
+        first = local%own + 1
+        call set_diagonal(form, element, [link%square, link%axial_square], value)
+        call set_block(form, element, first, 0, coupling, value)
+        call set_block(form, element, first, link%modes, axial, value)
+        call set_block(form, element, first, first, border, value)
+      else
+        motion(1, :) = local%along(1, :m)
+        motion(2, :) = local%across(1, :m)
+        motion(3, :) = local%turn(:m)
+        call set_block(form, element, 0, 0, matmul(transpose(motion), matmul(link%rigid_mass, &
+          motion)), value)
+      end if
+    end associate
+  end subroutine add_part_mass
+
+  !> Sets the first entries of the diagonal of an element.
+  pure subroutine set_diagonal(form, element, diagonal, value)
+    type(mixed_form_t), intent(in) :: form
+    integer, intent(in) :: element
+    real(wp), intent(in) :: diagonal(:)
+    real(wp), intent(inout) :: value(:)
+
+    integer :: i, n, start
+
+    n = form%elements%first(element + 1) - form%elements%first(element)
+    start = form%elements%value_first(element) - 1
+    do i = 1, size(diagonal)
+      value(start + (i - 1)*n + i) = diagonal(i)
+    end do
+  end subroutine set_diagonal
+
+  !> Adds a block to an element after so many rows and columns, on both sides of the diagonal.
+  pure subroutine set_block(form, element, row, column, block, value)
+    type(mixed_form_t), intent(in) :: form
+    integer, intent(in) :: element, row, column
+    real(wp), intent(in) :: block(:, :)
+    real(wp), intent(inout) :: value(:)
+
+    integer :: i, j, n, start
+
+    n = form%elements%first(element + 1) - form%elements%first(element)
+    start = form%elements%value_first(element) - 1
+    do j = 1, size(block, 2)
+      do i = 1, size(block, 1)
+        associate (entry => value(start + (column + j - 1)*n + row + i))
+          entry = entry + block(i, j)
+        end associate
+        if (row /= column) then
+          associate (entry => value(start + (row + i - 1)*n + column + j))
+            entry = entry + block(i, j)
+          end associate
+        end if
+      end do
+    end do
+  end subroutine set_block
+
+  !> The mass of what a cut carries, between the displacements of its point and its rotation.
+  pure subroutine add_carried(form, elastic, pose, number, mass)
+    type(mixed_form_t), intent(in) :: form
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(pose_t), intent(in) :: pose
+    integer, intent(in) :: number
+    real(wp), intent(inout) :: mass(:, :)
+
+    real(wp) :: moved(2, size(mass, 1)), turn(size(mass, 1)), arm(2)
+    integer :: j, n
+
+    associate (this => elastic%carried(number))
+      moved = 0.0_wp
+      turn = 0.0_wp
+      n = 0
+      if (form%numbers%point(this%point) > 0) then
+        moved(1, 1) = form%unit
+        moved(2, 2) = form%unit
+        n = 2
+      end if
+      if (this%rotation > 0) turn(n + 1) = form%unit/form%numbers%size_of
+      arm = normal_to(turned(this%arm, pose%direction(:, elastic%ways(this%way)%first_part)))
+      do j = 1, size(turn)
+        moved(:, j) = moved(:, j) + turn(j)*arm
+      end do
+      do j = 1, size(turn)
+        mass(:, j) = mass(:, j) + this%mass*(moved(1, :)*moved(1, j) + moved(2, :)*moved(2, j)) + &
+          this%inertia*turn*turn(j)
+      end do
+    end associate
+  end subroutine add_carried
+
+  !> Adds `K_G` of a load case, times a factor.
+  subroutine add_mixed_geometric(form, elastic, links, pose, loads, forces, case, factor, value)
+    type(mixed_form_t), intent(in) :: form         !! of the linkage
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    type(link_modes_t), intent(in) :: links(:)     !! (parts) of these lengths
+    type(pose_t), intent(in) :: pose               !! of points and parts
+    type(part_loads_t), intent(in) :: loads        !! of this position
+    type(part_forces_t), intent(in) :: forces      !! of these
+    integer, intent(in) :: case                    !! number of the load case
+    real(wp), intent(in) :: factor                 !! of it
+    real(wp), intent(inout) :: value(:)            !! of the elements
+
+    type(local_t) :: local
+    real(wp) :: row(form%numbers%unknowns), turn(form%numbers%unknowns), constant
+    integer :: i, k
+
+    do k = 1, size(links)
+      local = place_locally(form, elastic, links(k), k, pose)
+      call add_part_stiffness(form, links(k), local, factor*forces%axial(:, k, case), k, value)
+    end do
+    row = 0.0_wp
+    turn = 0.0_wp
+    do i = 1, size(elastic%contact)
+      if (elastic%guide_rotation(i) <= 0) cycle
+      k = form%line + i
+      call add_line(elastic, form%numbers, pose, i, line_direction(elastic, pose, i), row)
+      turn(form%numbers%rotation(elastic%guide_rotation(i))) = 1.0_wp/form%numbers%size_of
+      call add_product(form, k, factor*forces%guide(i, case), row, turn, value)
+      call clear(form, k, row)
+      call clear(form, k, turn)
+    end do
+    constant = merge(1.0_wp, 0.0_wp, case == constant_case)
+    do i = 1, size(elastic%springs)
+      call add_pull(elastic%springs(i), form%spring + i, forces%spring(i, case))
+    end do
+    do i = 1, size(elastic%tensions)
+      call add_pull(elastic%tensions(i), form%tension + i, constant*loads%tension(i))
+    end do
+    do i = 1, size(elastic%carried)
+      associate (this => elastic%carried(i))
+        if (this%rotation <= 0) cycle
+        turn(form%numbers%rotation(this%rotation)) = 1.0_wp/form%numbers%size_of
+        call add_product(form, form%carried + i, 0.5_wp*factor*loads%carried(4, i, case), turn, &
+          turn, value)
+        turn(form%numbers%rotation(this%rotation)) = 0.0_wp
+      end associate
+    end do
+
+  contains
+
+    !> Adds what a pull along a line does that turns with the linkage: `½ (T/l) (n·ΔU)²`.
+    subroutine add_pull(spring, element, pull)
+      type(spring_t), intent(in) :: spring
+      integer, intent(in) :: element
+      real(wp), intent(in) :: pull
+
+      real(wp) :: way(2)
+
+      if (spring%turns) return
+      way = spring_way(elastic, pose, spring)
+      if (.not. norm2(way) > 0.0_wp) return
+      call add_stretch(elastic, form%numbers, pose, spring, normal_to(way)/norm2(way), row)
+      call add_product(form, element, 0.5_wp*factor*pull/norm2(way), row, row, value)
+      call clear(form, element, row)
+    end subroutine add_pull
+
+  end subroutine add_mixed_geometric
+
+  !> The geometric stiffness of a part.
+  pure subroutine add_part_stiffness(form, link, local, force, element, value)
+    type(mixed_form_t), intent(in) :: form
+    type(link_modes_t), intent(in) :: link
+    type(local_t), intent(in) :: local
+    real(wp), intent(in) :: force(:)
+    integer, intent(in) :: element
+    real(wp), intent(inout) :: value(:)
+
+    real(wp) :: border(local%moving, local%moving), coupling(local%moving, link%modes), &
+      block(link%modes, link%modes)
+    integer :: first
+
+    border = 0.0_wp
+    associate (m => local%moving)
+      call add_link_stiffness(link, local%turn(:m), local%across(3:, :m), force, border, coupling, &
+        block)
+    end associate
+    first = merge(local%own + 1, 0, link%bends)
+    call set_block(form, element, first, first, border, value)
+    if (.not. link%bends) return
+    call set_block(form, element, first, 0, coupling, value)
+    call set_block(form, element, 0, 0, block, value)
+  end subroutine add_part_stiffness
+
+  !> Adds `factor (a bᵀ + b aᵀ)` of two rows to an element.
+  pure subroutine add_product(form, element, factor, a, b, value)
+    type(mixed_form_t), intent(in) :: form
+    integer, intent(in) :: element
+    real(wp), intent(in) :: factor, a(:), b(:)
+    real(wp), intent(inout) :: value(:)
+
+    integer :: i, j, n, first, start, p, q
+
+    first = form%elements%first(element)
+    n = form%elements%first(element + 1) - first
+    start = form%elements%value_first(element) - 1
+    do j = 1, n
+      q = form%elements%unknown(first + j - 1) - form%displacements
+      if (q < 1 .or. q > size(a)) cycle
+      do i = 1, n
+        p = form%elements%unknown(first + i - 1) - form%displacements
+        if (p < 1 .or. p > size(a)) cycle
+        value(start + (j - 1)*n + i) = value(start + (j - 1)*n + i) + &
+          factor*form%unit**2*(a(p)*b(q) + b(p)*a(q))
+      end do
+    end do
+  end subroutine add_product
+
+  !> Work of a load case on every unknown. It leaves own modes out, which carry no force between
+  !! parts.
+  function mixed_work(form, elastic, links, pose, loads, case) result(work)
+    type(mixed_form_t), intent(in) :: form         !! of the linkage
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    type(link_modes_t), intent(in) :: links(:)     !! (parts) of these lengths
+    type(pose_t), intent(in) :: pose               !! of points and parts
+    type(part_loads_t), intent(in) :: loads        !! of this position
+    integer, intent(in) :: case                    !! number of the load case
+    real(wp) :: work(form%unknowns)
+
+    type(local_t) :: local
+    real(wp) :: on_part(most)
+    integer :: i, j, k, first
+
+    work = 0.0_wp
+    associate (of_case => loads%unit%of_case(case), turning => form%unit/form%numbers%size_of)
+      do k = 1, size(links)
+        local = place_locally(form, elastic, links(k), k, pose)
+        on_part = 0.0_wp
+        associate (m => local%moving)
+          call add_link_work(elastic%linkage, links(k), k, local%across(:, :m), &
+            local%along(:, :m), local%turn(:m), pose, of_case, on_part(:m))
+        end associate
+        first = form%elements%first(k) + local%own + merge(1, 0, links(k)%bends) - 1
+        do j = 1, local%moving
+          associate (entry => work(form%elements%unknown(first + j)))
+            entry = entry + on_part(j)
+          end associate
+        end do
+      end do
+      do i = 1, size(elastic%is_fixed)
+        if (form%numbers%point(i) > 0) call add_force(i, of_case%pin_force(:, i) - &
+          elastic%linkage%pin_mass(i)*of_case%field%at_pin(:, i))
+      end do
+      do i = 1, elastic%rotations
+        call add_moment(i, loads%moment(i, case))
+      end do
+      do i = 1, size(elastic%carried)
+        call add_force(elastic%carried(i)%point, loads%carried(:2, i, case))
+        if (elastic%carried(i)%rotation > 0) call add_moment(elastic%carried(i)%rotation, &
+          loads%carried(3, i, case))
+      end do
+    end associate
+
+  contains
+
+    !> Adds a force on a point.
+    subroutine add_force(point, force)
+      integer, intent(in) :: point
+      real(wp), intent(in) :: force(2)
+
+      associate (at => form%displacements + form%numbers%point(point))
+        if (form%numbers%point(point) > 0) work(at:at + 1) = work(at:at + 1) + form%unit*force
+      end associate
+    end subroutine add_force
+
+    !> Adds a moment on a rotation.
+    subroutine add_moment(rotation, moment)
+      integer, intent(in) :: rotation
+      real(wp), intent(in) :: moment
+
+      associate (at => form%displacements + form%numbers%rotation(rotation))
+        work(at) = work(at) + form%unit/form%numbers%size_of*moment
+      end associate
+    end subroutine add_moment
+
+  end function mixed_work
+
+end module mixed_matrices

@@ -1,0 +1,309 @@
+!> A linkage of many links at a position: matrices in mixed form, forces of its loads, its modes.
+module mixed_positions
+  use bordered_eigensolver, only: bordered_modes_t, start_t
+  use bordered_matrix, only: layout_t, new_bordered_layout
+  use elastic_linkages, only: elastic_linkage_t
+  use element_eigensolver, only: conditions_hold, element_pencil_t, find_element_modes
+  use element_matrices, only: absolute_times_vector, times_vector
+  use errors, only: error_of_dead_point, error_t, set_error
+  use indefinite_factor, only: solve
+  use kinds, only: wp
+  use link_modes, only: link_modes_t
+  use linkages, only: linkage_t
+  use load_cases, only: case_count
+  use mixed_form, only: mixed_form_t, new_mixed_form, place_elements
+  use mixed_matrices, only: add_mixed_geometric, assemble_mixed_mass, assemble_mixed_stiffness, &
+    mixed_work
+  use part_displacements, only: chords_of
+  use part_forces, only: make_room, part_forces_t, take_forces
+  use part_poses, only: part_loads_t
+  use pin_displacements, only: chords_t
+  use poses, only: pose_t, refuse_change_point
+  implicit none (type, external)
+  private
+
+  public :: mixed_position_t, new_mixed_position, assemble_mixed, is_held, find_mixed_modes, &
+    displacements_of, modes_on_border, work_in, largest_work
+
+  !> Allocated once for a model, filled at every position.
+  type :: mixed_position_t
+    type(mixed_form_t) :: form
+    type(element_pencil_t) :: pencil           !! M, and K at one speed
+    real(wp), allocatable :: at_rest(:)        !! K without loads
+    real(wp), allocatable :: unit_stiffness(:, :) !! (values, cases) K_G of each unit load
+    real(wp), allocatable :: solution(:, :)    !! (unknowns, cases) how the linkage yields to each
+  end type mixed_position_t
+
+contains
+
+  !> Numbers of a linkage.
+  pure function new_mixed_position(elastic, links) result(mixed)
+    type(elastic_linkage_t), intent(in) :: elastic !! parts, points, rotations
+    type(link_modes_t), intent(in) :: links(:)     !! (parts)
+    type(mixed_position_t) :: mixed
+
+    mixed%form = new_mixed_form(elastic, links)
+    mixed%pencil%conditions = mixed%form%conditions
+  end function new_mixed_position
+
+  !> Matrices and forces at a position.
+  !!
+  !! Errors: a dead point or a change point, where conditions do not hold the linkage, or follow
+  !! from each other.
+  subroutine assemble_mixed(linkage, elastic, links, pose, loads, mixed, forces, error)
+    type(linkage_t), intent(in) :: linkage          !! that moves: its drives
+    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
+    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
+    type(pose_t), intent(in) :: pose                !! of points and parts
+    type(part_loads_t), intent(in) :: loads         !! of this position
+    type(mixed_position_t), intent(inout) :: mixed  !! of this linkage
+    type(part_forces_t), intent(out) :: forces
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: i, n
+
+    call assemble_rest(elastic, links, pose, mixed)
+    call make_room(linkage, elastic, loads, mixed%form%numbers, case_count, forces)
+    associate (form => mixed%form, pencil => mixed%pencil)
+      if (.not. any(loads%unit%occurs)) return
+      if (.not. conditions_hold(form%elements, form%plan, pencil)) then
+        call refuse_change_point(pose, error)
+        if (.not. allocated(error)) call set_error(error, error_of_dead_point, &
+          "dead point: the conditions of the linkage depend on each other here")
+        return
+      end if
+      if (.not. allocated(mixed%solution)) allocate (mixed%solution(form%unknowns, case_count))
+      mixed%solution = 0.0_wp
+      do i = 1, case_count
+        if (loads%unit%occurs(i)) mixed%solution(:, i) = mixed_work(form, elastic, links, pose, &
+          loads, i)
+      end do
+      call solve_refined(loads%unit%occurs, mixed)
+      n = form%multipliers + size(form%numbers%rows)
+      do i = 1, case_count
+        if (.not. loads%unit%occurs(i)) cycle
+        mixed%unit_stiffness(:, i) = 0.0_wp
+        ! The unknowns of `displacements_of` these solutions.
+        forces%border(i, i) = 1.0_wp
+        call take_forces(elastic, links, pose, loads, form%numbers, &
+          mixed%solution(form%rows + 1:form%displacements, i), &
+          mixed%solution(n + 1:, i)/form%unit, i, forces)
+        call add_mixed_geometric(form, elastic, links, pose, loads, forces, i, 1.0_wp, &
+          mixed%unit_stiffness(:, i))
+      end do
+    end associate
+  end subroutine assemble_mixed
+
+  !> K and M without loads.
+  subroutine assemble_rest(elastic, links, pose, mixed)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(link_modes_t), intent(in) :: links(:)
+    type(pose_t), intent(in) :: pose
+    type(mixed_position_t), intent(inout) :: mixed
+
+    integer :: n
+
+    call place_elements(elastic, links, mixed%form)
+    associate (form => mixed%form, pencil => mixed%pencil)
+      n = size(form%elements%value_first)
+      n = form%elements%value_first(n) - 1
+      if (allocated(pencil%mass)) then
+        if (size(pencil%mass) /= n) deallocate (pencil%mass, mixed%at_rest, mixed%unit_stiffness)
+      end if
+      if (.not. allocated(pencil%mass)) allocate (pencil%mass(n), mixed%at_rest(n), &
+        mixed%unit_stiffness(n, case_count))
+      call assemble_mixed_stiffness(form, elastic, links, pose, mixed%at_rest)
+      call assemble_mixed_mass(form, elastic, links, pose, pencil%mass)
+      pencil%stiffness = mixed%at_rest
+    end associate
+  end subroutine assemble_rest
+
+  !> Whether the conditions hold a linkage at a position, each of them independent of the others.
+  logical function is_held(elastic, links, pose, mixed)
+    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
+    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
+    type(pose_t), intent(in) :: pose                !! of points and parts
+    type(mixed_position_t), intent(inout) :: mixed  !! of this linkage
+
+    call assemble_rest(elastic, links, pose, mixed)
+    is_held = conditions_hold(mixed%form%elements, mixed%form%plan, mixed%pencil)
+  end function is_held
+
+  !> Solves `K z = f` in place, with one step of refinement: forces pass from part to part with all
+  !! their digits.
+  pure subroutine solve_refined(occurs, mixed)
+    logical, intent(in) :: occurs(case_count)      !! cases that do
+    type(mixed_position_t), intent(inout) :: mixed !! with the factor of K, and f as its solution
+
+    real(wp) :: rest(mixed%form%unknowns, 1), product(mixed%form%unknowns)
+    integer :: i
+
+    do i = 1, case_count
+      if (.not. occurs(i)) cycle
+      associate (z => mixed%solution(:, i:i))
+        rest = z
+        call solve(mixed%form%plan, mixed%pencil%factor, z)
+        call times_vector(mixed%form%elements, mixed%at_rest, z(:, 1), product)
+        rest(:, 1) = rest(:, 1) - product
+        call solve(mixed%form%plan, mixed%pencil%factor, rest)
+        z = z + rest
+      end associate
+    end do
+  end subroutine solve_refined
+
+  !> The lowest modes at a speed.
+  !!
+  !! Errors: those of `find_element_modes`.
+  subroutine find_mixed_modes(mixed, factor, modes, accurate_vectors, start, clearance, found, &
+    error)
+    type(mixed_position_t), intent(inout) :: mixed   !! at a position
+    real(wp), intent(in) :: factor(case_count)       !! of the unit loads: ω2², α2, 1
+    integer, intent(in) :: modes                     !! number wanted
+    logical, intent(in) :: accurate_vectors          !! also to full precision
+    type(start_t), intent(in) :: start               !! from the last positions
+    real(wp), intent(in) :: clearance                !! as of `find_element_modes`
+    type(bordered_modes_t), intent(inout) :: found   !! in the unknowns of the form
+    type(error_t), allocatable, intent(out) :: error
+
+    call set_stiffness(mixed, factor)
+    call find_element_modes(mixed%form%elements, mixed%form%plan, mixed%pencil, modes, &
+      accurate_vectors, start, found, error, clearance)
+  end subroutine find_mixed_modes
+
+  !> K of a speed.
+  pure subroutine set_stiffness(mixed, factor)
+    type(mixed_position_t), intent(inout) :: mixed
+    real(wp), intent(in) :: factor(case_count)
+
+    integer :: i
+
+    mixed%pencil%stiffness = mixed%at_rest
+    do i = 1, case_count
+      if (abs(factor(i)) > 0.0_wp) mixed%pencil%stiffness = mixed%pencil%stiffness + &
+        factor(i)*mixed%unit_stiffness(:, i)
+    end do
+  end subroutine set_stiffness
+
+  !> What some solutions do to points and parts.
+  pure function displacements_of(form, elastic, links, pose, z) result(chords)
+    type(mixed_form_t), intent(in) :: form         !! of the linkage
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    type(link_modes_t), intent(in) :: links(:)     !! (parts)
+    type(pose_t), intent(in) :: pose               !! of points and parts
+    real(wp), intent(in) :: z(:, :)                !! (unknowns, solutions)
+    type(chords_t) :: chords
+
+    chords = chords_of(elastic, links, pose, form%numbers, &
+      form%unit*z(form%displacements + 1:form%multipliers, :), &
+      z(form%rows + 1:form%displacements, :))
+    chords%weighted = z(form%rows + 1:form%displacements, :)
+  end function displacements_of
+
+  !> Modes as those of a bordered matrix whose border are the modes themselves: the unknown of a
+  !! mode is the norm of its y, so that squares of unknowns are energies.
+  pure subroutine modes_on_border(mixed, elastic, links, pose, modes, chords, layout, border_mass, &
+    found)
+    type(mixed_position_t), intent(in) :: mixed     !! at this position
+    type(elastic_linkage_t), intent(in) :: elastic  !! its parts
+    type(link_modes_t), intent(in) :: links(:)      !! (parts)
+    type(pose_t), intent(in) :: pose                !! of points and parts
+    type(bordered_modes_t), intent(in) :: modes     !! in the unknowns of the form
+    type(chords_t), intent(out) :: chords           !! what unit unknowns of the border do
+    type(layout_t), intent(out) :: layout           !! of the border and own modes
+    real(wp), allocatable, intent(out) :: border_mass(:, :) !! M between the border's [s²]
+    type(bordered_modes_t), intent(out) :: found
+
+    real(wp), allocatable :: z(:, :), without_own(:), product(:)
+    real(wp) :: norm, energy
+    integer :: i, k, n, first, axial
+
+    n = size(modes%lambda)
+    layout = new_bordered_layout(n, links%modes, links%axial_modes)
+    found%lambda = modes%lambda
+    found%error = modes%error
+    found%origin = modes%origin
+    found%near = modes%near
+    found%clear = modes%clear
+    allocate (found%vector(layout%unknowns, n), source=0.0_wp)
+    z = modes%vector
+    do i = 1, n
+      norm = norm2(z(mixed%form%rows + 1:mixed%form%displacements, i))
+      if (.not. norm > 0.0_wp) norm = tiny(norm)
+      found%vector(i, i) = norm
+      axial = layout%unknowns - sum(links%axial_modes)
+      do k = 1, size(links)
+        first = layout%first(k) - 1
+        associate (own => z(mixed%form%own(k) + 1:, i))
+          found%vector(first + 1:first + links(k)%modes, i) = own(:links(k)%modes)
+          found%vector(axial + 1:axial + links(k)%axial_modes, i) = own(links(k)%modes + 1: &
+            links(k)%modes + links(k)%axial_modes)
+        end associate
+        axial = axial + links(k)%axial_modes
+      end do
+      z(:, i) = z(:, i)/norm
+    end do
+    chords = displacements_of(mixed%form, elastic, links, pose, z)
+    ! Modes are recognised by the energy of their strains.
+    found%mass_times = found%vector
+    do i = 1, n
+      energy = dot_product(found%vector(:, i), found%vector(:, i))
+      found%mass_times(:, i) = found%vector(:, i)/max(energy, tiny(energy))
+    end do
+    allocate (border_mass(n, n), product(size(z, 1)))
+    do i = 1, n
+      without_own = z(:, i)
+      without_own(:mixed%form%rows) = 0.0_wp
+      call times_vector(mixed%form%elements, mixed%pencil%mass, without_own, product)
+      product(:mixed%form%rows) = 0.0_wp
+      border_mass(:, i) = matmul(product, z)
+    end do
+  end subroutine modes_on_border
+
+  !> `zᵀ(K − λM) z` of the lowest modes, K at a speed [1/s²]: what a change of the matrices changes
+  !! of it, multipliers and all, it changes of the eigenvalue to first order.
+  function work_in(mixed, factor, modes, number) result(work)
+    type(mixed_position_t), intent(inout) :: mixed !! at a position near that of the modes
+    real(wp), intent(in) :: factor(case_count)     !! of the unit loads
+    type(bordered_modes_t), intent(in) :: modes    !! in the unknowns of the form
+    integer, intent(in) :: number                  !! of modes
+    real(wp) :: work(number)
+
+    real(wp) :: product(mixed%form%unknowns)
+    integer :: i
+
+    call set_stiffness(mixed, factor)
+    do i = 1, number
+      associate (z => modes%vector(:, i))
+        call times_vector(mixed%form%elements, mixed%pencil%stiffness, z, product)
+        work(i) = dot_product(z, product)
+        call times_vector(mixed%form%elements, mixed%pencil%mass, z, product)
+        work(i) = work(i) - modes%lambda(i)*dot_product(z, product)
+      end associate
+    end do
+  end function work_in
+
+  !> Bound of what blocks on guides, springs under tension and loads of cuts do in modes of unit
+  !! mass, whatever cancels, twice [1/s²].
+  pure function largest_work(mixed, factor, modes, number) result(work)
+    type(mixed_position_t), intent(in) :: mixed !! at the position of the modes
+    real(wp), intent(in) :: factor(case_count)  !! of the unit loads
+    type(bordered_modes_t), intent(in) :: modes !! in the unknowns of the form
+    integer, intent(in) :: number               !! of modes
+    real(wp) :: work(number)
+
+    real(wp) :: product(mixed%form%unknowns), value(size(mixed%unit_stiffness, 1))
+    integer :: i, k
+
+    work = 0.0_wp
+    do k = 1, case_count
+      if (.not. abs(factor(k)) > 0.0_wp) cycle
+      value = mixed%unit_stiffness(:, k)
+      value(:mixed%form%elements%value_first(mixed%form%spring + 1) - 1) = 0.0_wp
+      do i = 1, number
+        call absolute_times_vector(mixed%form%elements, value, modes%vector(:, i), product)
+        work(i) = work(i) + abs(factor(k))*dot_product(abs(modes%vector(:, i)), product)
+      end do
+    end do
+  end function largest_work
+
+end module mixed_positions
