@@ -15,7 +15,7 @@ module quantities
   private
 
   public :: quantity_t, read_number, take_unit, are_alike, match_angles, multiply, raise, &
-    quantity_text, kind_text
+    quantity_text, product_text, kind_text
 
   type :: quantity_t
     real(wp) :: value = 0.0_wp    !! in units of bare lengths, masses and times, and an angle's
@@ -201,6 +201,25 @@ contains
       text = shortest_text(quantity%value + 0.0_wp)//text
     end if
   end function quantity_text
+
+  !> `3*1s**-1`: a value in any unit as arithmetic, which has the same double.
+  pure function product_text(quantity, system) result(text)
+    type(quantity_t), intent(in) :: quantity
+    type(unit_system_t), intent(in) :: system !! units of bare numbers
+    character(len=:), allocatable :: text
+
+    type(quantity_t) :: base
+    integer :: i
+
+    text = shortest_text(quantity%value + 0.0_wp)
+    base%in_radians = quantity%in_radians
+    do i = 1, size(quantity%dimension)
+      if (quantity%dimension(i) == 0) cycle
+      base%dimension = 0
+      base%dimension(i) = 1
+      text = text//"*1"//unit_text(base, system)//"**"//to_string(quantity%dimension(i))
+    end do
+  end function product_text
 
   !> `mm`, `kg/mm/s2`, `deg/s`, `1/s`; empty for a pure number.
   pure function unit_text(quantity, system) result(text)

@@ -5,7 +5,7 @@ module substitution
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_writing
   use expressions, only: operand_t, split_at_names
-  use quantities, only: kind_text
+  use quantities, only: kind_text, product_text
   use settings, only: look_up_setting, settings_t
   use text, only: same_word
   use text_buffer, only: append_text, buffer_text, text_buffer_t
@@ -65,13 +65,14 @@ contains
   end subroutine substitute
 
   !> Replaces one `$name` by its value, or appends its slot.
-  pure subroutine substitute_word(word, slot, settings, diagnostics, slots, count)
+  pure subroutine substitute_word(word, slot, settings, diagnostics, slots, count, in_formula)
     type(token_t), intent(inout) :: word
     type(slot_t), intent(in) :: slot !! where the word is
     type(settings_t), intent(inout) :: settings
     type(diagnostics_t), intent(inout) :: diagnostics
     type(slot_t), allocatable, intent(inout) :: slots(:)
     integer, intent(inout) :: count !! slots in use
+    logical, intent(in), optional :: in_formula !! the word is a part of one
 
     integer :: number, root
 
@@ -86,22 +87,28 @@ contains
       slots(count) = slot
       slots(count)%setting = root
     else
-      call put_operand(word, settings%operands(root), settings%system, diagnostics)
+      call put_operand(word, settings%operands(root), settings%system, diagnostics, &
+        in_formula)
     end if
   end subroutine substitute_word
 
   !> Gives a word the text of a value. One without a line is unknown, and so is the word then.
   !!
-  !! Errors: its unit cannot stand on a card.
-  pure subroutine put_operand(word, operand, system, diagnostics)
+  !! Errors: its unit cannot stand on a card, and the word is no part of a formula.
+  pure subroutine put_operand(word, operand, system, diagnostics, in_formula)
     type(token_t), intent(inout) :: word
     type(operand_t), intent(in) :: operand
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
+    logical, intent(in), optional :: in_formula !! the word is a part of one
 
     if (operand%word%line > 0) then
       call set_word(word, operand%word)
-      if (len(operand%word%text) > 0) return
+      if (len(word%text) > 0) return
+      if (present(in_formula)) then
+        if (in_formula) word%text = product_text(operand%quantity, system)
+      end if
+      if (len(word%text) > 0) return
       word%set_line = 0
       call add_error(diagnostics, word, "this is "//kind_text(operand%quantity, system)// &
         ", which no card takes", operand%word, "it is computed here", kind=error_of_writing)
@@ -144,7 +151,8 @@ contains
     do i = 1, size(entry%items)
       if (index(entry%items(i)%text, "$") == 0) cycle
       place%item = i
-      call substitute_word(entry%items(i), place, settings, diagnostics, slots, count)
+      call substitute_word(entry%items(i), place, settings, diagnostics, slots, count, &
+        is_formula(entry))
       if (entry%items(i)%set_line < 0) entry%value%set_line = -1
     end do
     call join_items(entry)
@@ -194,7 +202,7 @@ contains
       end if
       associate (entry => card%entries(slot%entry))
         if (slot%item > 0) then
-          call put_operand(entry%items(slot%item), value, system, diagnostics)
+          call put_operand(entry%items(slot%item), value, system, diagnostics, is_formula(entry))
           call join_items(entry)
           entry%value%set_line = merge(-1, 0, any(entry%items%set_line < 0))
         else
