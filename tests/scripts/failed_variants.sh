@@ -100,7 +100,7 @@ all_are_wrong() {
   sed 's/^VARY.*/VARY b -9 -10 0/' "$scratch/some.deck" >"$scratch/wrong.deck"
   run 2 --out "$scratch/nothing" "$scratch/wrong.deck" && says "wrong.deck:7:32: error: 'length=' must be greater than 0, not -9" &&
     absent "$scratch/nothing" || return 1
-  says "error: 3 of 3 variants are refused, the last one with b=0" || return 1
+  says "error: 3 of 3 variants are refused, the first one with b=-9" || return 1
   [ "$(grep -c error: "$scratch/stderr")" -eq 2 ] || { echo "more than the first error and their number"; return 1; }
 }
 check "all variants are wrong: the deck is refused" all_are_wrong

@@ -290,8 +290,8 @@ contains
     subroutine add_count()
       if (checks%count == 1) return
       call add_error(diagnostics, deck_cards%variations(1)%name, to_string(checks%count)//" of "// &
-        to_string(checks%count)//" variants are refused, the last one with "// &
-        variant_text(deck_cards, checks%count))
+        to_string(checks%count)//" variants are refused, the first one with "// &
+        variant_text(deck_cards, 1))
     end subroutine add_count
 
   end subroutine conclude_checks
