@@ -13,11 +13,12 @@ module measure_checks
   use named_coordinates, only: coordinate_number, find_named_coordinates, named_coordinate_t, &
     of_measure
   use natures, only: are_alike
+  use report_cards, only: report_t
   use spelling, only: suggestion
   use spring_checks, only: check_ends, is_on_weld, refuse_still_links, seek_place
   use summary_cards, only: summary_card_t
   use summary_quantities, only: quantity_kinds
-  use text, only: same_word, string_t
+  use text, only: lower_case, same_word, string_t
   use tokens, only: token_part, token_t, token_texts
   use units, only: dimension_name
   implicit none (type, external)
@@ -69,7 +70,7 @@ contains
   end subroutine check_measures
 
   !> REPORT coordinates, or motion with them. Errors: there is nothing of which it has rows; two
-  !! coordinates with one name; an unknown one in `ratio_to=`.
+  !! coordinates with one name; an unknown one in `ratio_to=`, or one that nothing is compared with.
   pure subroutine check_report(diagnostics, all_names, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(named_coordinate_t), intent(in) :: all_names(:)
@@ -77,6 +78,9 @@ contains
 
     integer :: number, i, first
 
+    do i = 1, size(model%reports)
+      call refuse_idle_reference(diagnostics, model%reports(i))
+    end do
     number = report_with(model, "coordinates")
     if (number == 0) number = report_in_time(model)
     if (number == 0) return
@@ -130,6 +134,21 @@ contains
         "expected 'ratio_to=', the name of the other, on this card")
     end do
   end subroutine find_quantities
+
+  !> Refuses `ratio_to=` of a REPORT summary without a ratio.
+  pure subroutine refuse_idle_reference(diagnostics, report)
+    type(diagnostics_t), intent(inout) :: diagnostics
+    type(report_t), intent(in) :: report
+
+    integer :: i
+
+    if (report%ratio_to%line == 0 .or. .not. allocated(report%summary%quantities)) return
+    do i = 1, size(report%summary%quantities)
+      if (quantity_kinds(report%summary%quantities(i)%kind)%name == "ratio:") return
+    end do
+    call add_error(diagnostics, report%ratio_to, "'ratio_to=' is for quantities 'ratio:NAME', "// &
+      "of which 'of=' has none")
+  end subroutine refuse_idle_reference
 
   !> The number of a REPORT motion that has coordinates, too; 0: there is none.
   pure function report_in_time(model) result(number)
@@ -275,13 +294,22 @@ contains
     integer, intent(out) :: number                           !! in the list; 0: unknown
 
     type(string_t) :: names(size(all_names))
+    character(len=:), allocatable :: ways
     integer :: i
 
     number = coordinate_number(all_names, word%text)
     if (number > 0) return
+    ways = ""
     do i = 1, size(names)
       names(i)%text = all_names(i)%name
+      if (index(lower_case(names(i)%text), lower_case(word%text)//":") == 1) ways = ways// &
+        " or '"//names(i)%text//"'"
     end do
+    if (len(ways) > 0) then
+      call add_error(diagnostics, word, "pin '"//word%text//"' slides in several ways; "// &
+        "expected the name of one, "//ways(len(" or ") + 1:))
+      return
+    end if
     call add_error(diagnostics, word, "unknown coordinate '"//word%text//"'"// &
       suggestion(word%text, names)//"; expected the name of a MEASURE, a SPRING or a DAMPER, "// &
       "of a link whose length is driven, or of a pin that slides")
