@@ -50,7 +50,7 @@ contains
     has_found = size(component) > 0
     if (.not. has_found) then
       problem = what_is_free(linkage, matching, pins, bodies)
-      problem%redundant = redundant_bodies(linkage, pack(equations, matching%unknown_of == 0))
+      call blame_parts(linkage, pack(equations, matching%unknown_of == 0), problem)
       return
     end if
     group%kind = group_by_newton
@@ -96,6 +96,22 @@ contains
     problem%mobility = count(matching%equation_of == 0) + count(linkage%drives%kind /= &
       drive_of_nothing)
   end function what_is_free
+
+  !> What does nothing while other parts are free: a drive, or else bodies held more than once.
+  pure subroutine blame_parts(linkage, idle, problem)
+    type(linkage_t), intent(in) :: linkage
+    type(equation_t), intent(in) :: idle(:) !! that nothing is left for
+    type(plan_problem_t), intent(inout) :: problem
+
+    integer :: i
+
+    i = findloc(idle%kind, demand_drive, dim=1)
+    if (i > 0) then
+      problem%number = idle(i)%number
+    else
+      problem%redundant = redundant_bodies(linkage, idle)
+    end if
+  end subroutine blame_parts
 
   !> Bodies of the redundancies so far, and of equations that nothing is left for.
   pure function redundant_bodies(linkage, idle) result(bodies)

@@ -23,7 +23,7 @@ module plan_problems
     integer :: mobility = 0          !! of the linkage
     integer, allocatable :: pins(:)  !! that it is about
     integer, allocatable :: bodies(:) !! that it is about
-    integer :: number = 0            !! of a drive, or of a side; 0: of none
+    integer :: number = 0            !! of a drive that moves nothing, or of a side; 0: of none
     integer :: other = 0             !! number of a further side; 0: of none
     integer, allocatable :: redundant(:) !! bodies of equations that elsewhere are more than needed;
                                      !! 0: of guides alone

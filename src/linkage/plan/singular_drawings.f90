@@ -13,7 +13,7 @@ module singular_drawings
   implicit none (type, external)
   private
 
-  public :: find_singularity
+  public :: find_singularity, linearize
 
 contains
 

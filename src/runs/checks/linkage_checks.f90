@@ -20,6 +20,7 @@ module linkage_checks
   use pose_types, only: pose_t
   use poses, only: place_pins
   use reach_checks, only: check_reach
+  use repeated_drives, only: find_repeated_drive
   use ram_checks, only: check_rams
   use redundancies, only: is_fit, largest_misfit
   use response_linkage_checks, only: check_running
@@ -59,8 +60,15 @@ contains
     type(mechanism_t), intent(in) :: mechanism        !! of the model
     type(diagnostics_t), intent(inout) :: diagnostics !! to which errors and warnings are added
 
-    integer :: leaving
+    integer :: leaving, drive, first
 
+    call find_repeated_drive(mechanism%linkage, drive, first)
+    if (drive > 0) then
+      call add_error(diagnostics, model%drives(drive)%subject, "'"// &
+        model%drives(drive)%subject%text//"' is driven already; expected a DRIVE of something "// &
+        "else", model%drives(first)%subject, "it follows from this one")
+      return
+    end if
     if (allocated(assembly%error)) then
       call report_assembly(model, assembly, diagnostics)
       return

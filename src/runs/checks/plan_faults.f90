@@ -34,7 +34,13 @@ contains
       select case (problem%kind)
       case (problem_too_free)
         if (size(problem%pins) > 0) place = token_of_pin(model, assembly, problem%pins(1))
-        if (size(problem%redundant) > 0) then
+        if (problem%number > 0) then
+          associate (subject => model%drives(problem%number)%subject)
+            call add_error(diagnostics, subject, "this DRIVE moves nothing: '"//subject%text// &
+              "' is held already, while "//what_is_free(assembly)//"; expected a DRIVE of what "// &
+              "is free, or parts that hold it", place, "this is free")
+          end associate
+        else if (size(problem%redundant) > 0) then
           call report_loose_and_rigid(model, assembly, place, diagnostics)
         else
           call add_error(diagnostics, place, "the linkage has mobility "// &
