@@ -1,14 +1,15 @@
 !> Stops that the drawing presses: told before the run, for a sign or a limit is wrong more often
 !! than a machine is drawn in its stop.
 module stop_drawings
-  use applied_load_types, only: is_torsional
+  use constants, only: two_pi
+  use coordinate_types, only: coordinate_t, is_angle, is_sum
   use coordinates, only: coordinate_value
   use diagnostics, only: add_warning, diagnostics_t
+  use drawn_cranks, only: starting_cranks
   use kinds, only: wp
-  use linkages, only: reference_point
+  use linkages, only: linkage_t, reference_point
   use mechanisms, only: mechanism_t
   use models, only: model_t
-  use natures, only: angle_nature
   use pose_types, only: drawn_pose, pose_t
   use pulls, only: deflection
   use text, only: to_string
@@ -30,6 +31,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics !! to which the warnings are added
 
     type(pose_t) :: pose
+    real(wp), allocatable :: cranks(:)
     real(wp) :: depth
     type(unit_t) :: measure
     integer :: i
@@ -39,14 +41,13 @@ contains
       if (.not. allocated(linkage%drawing%is_drawn)) return
       if (.not. all(linkage%drawing%is_drawn)) return
       pose = drawn_pose(linkage, reference_point(linkage))
+      cranks = starting_cranks(model, linkage)
+      pose%crank = cranks(1)
       do i = 1, size(model%stops)
         associate (load => linkage%loads(size(linkage%loads) - size(model%stops) + i), &
             nature => model%stops(i)%nature)
-          ! Of a drawing nobody knows where drives are.
-          if (load%along%drive > 0) cycle
-          depth = load%side*deflection(load, coordinate_value(linkage, pose, load%along))
+          depth = load%side*deflection(load, drawn_value(linkage, pose, load%along))
           if (depth <= rough*maxval(linkage%bodies%length)**nature%value(1)) cycle
-          if (nature%noun == angle_nature%noun .and. .not. is_torsional(load)) cycle
           measure = coherent_unit(model%units, nature%value)
           call add_warning(diagnostics, model%stops(i)%name, "the drawing is "// &
             to_string(from_si(depth, measure), 3)//" "//measure%name//" inside the stop '"// &
@@ -55,5 +56,31 @@ contains
       end do
     end associate
   end subroutine check_drawn_stops
+
+  !> A coordinate in the drawing. One that a drive gives is drawn, too; the turns of an angle are
+  !! those of the drive.
+  pure recursive function drawn_value(linkage, pose, coordinate) result(value)
+    type(linkage_t), intent(in) :: linkage
+    type(pose_t), intent(in) :: pose !! of the drawing, with the coordinate of the first drive
+    type(coordinate_t), intent(in) :: coordinate
+    real(wp) :: value !! [m] or [rad]
+
+    type(coordinate_t) :: as_drawn
+    integer :: i
+
+    if (coordinate%kind == is_sum) then
+      value = 0.0_wp
+      do i = 1, size(coordinate%term)
+        value = value + coordinate%weight(i)*drawn_value(linkage, pose, &
+          linkage%coordinates(coordinate%term(i)))
+      end do
+      return
+    end if
+    as_drawn = coordinate
+    as_drawn%drive = 0
+    value = coordinate_value(linkage, pose, as_drawn)
+    if (coordinate%drive == 0 .or. coordinate%kind /= is_angle) return
+    value = value + two_pi*anint((coordinate_value(linkage, pose, coordinate) - value)/two_pi)
+  end function drawn_value
 
 end module stop_drawings
