@@ -13,6 +13,7 @@ module coordinate_builder
   use natures, only: length_nature, nature_t
   use process_cards, only: over_measure
   use spring_builder, only: angle_between, coordinate_of_spring, place_of
+  use units, only: coherent_unit
   implicit none (type, external)
   private
 
@@ -59,6 +60,8 @@ contains
         if (process%over /= over_measure) cycle
         linkage%loads(i)%variable = linkage%coordinates(process%number)
         linkage%loads(i)%variable_name = listed(process%number)%name
+        linkage%loads(i)%variable_unit = coherent_unit(model%units, &
+          listed(process%number)%nature%value)
       end associate
     end do
   end subroutine build_coordinates

@@ -7,11 +7,13 @@ module process_builder
   use coordinates, only: slider_coordinate
   use cubic_splines, only: ends_not_a_knot, ends_periodic, new_cubic_spline, new_monotone_spline
   use linkages, only: linkage_t, turned
-  use models, only: model_t
+  use models, only: model_t, nature_of_positions
   use name_index, only: find_name, name_index_t
+  use natures, only: angle_nature, length_nature, nature_t
   use process_cards, only: over_angle, over_drive, over_nothing, over_slider, &
     card_over_time => over_time, over_travel, process_card_t, process_force, process_resistance
   use spring_builder, only: angle_between
+  use units, only: coherent_unit, dimension_time
   implicit none (type, external)
   private
 
@@ -53,17 +55,20 @@ contains
         load%smooth = process%smooth
         load%during = merge(acts_with_motion, acts_against_motion, process%during > 0)
         if (process%during == 0) load%during = acts_always
-        if (process%over /= over_nothing) call set_table(process, links, linkage, load)
+        if (process%over /= over_nothing) call set_table(model, process, links, linkage, load)
       end associate
     end do
   end function process_loads
 
   !> The table of a load; its force is then a unit vector.
-  pure subroutine set_table(process, links, linkage, load)
+  pure subroutine set_table(model, process, links, linkage, load)
+    type(model_t), intent(in) :: model
     type(process_card_t), intent(in) :: process
     integer, intent(in) :: links(:)
     type(linkage_t), intent(in) :: linkage
     type(applied_load_t), intent(inout) :: load
+
+    type(nature_t) :: nature
 
     load%table_name = process%table_word%text
     if (process%over == card_over_time) then
@@ -74,9 +79,11 @@ contains
     end if
     if (process%kind == process_force) load%force = load%force/norm2(load%force)
     load%over = over_coordinate
+    nature = length_nature
     select case (process%over)
     case (over_drive)
       load%variable%drive = 1
+      nature = nature_of_positions(model)
     case (over_slider)
       load%variable = slider_coordinate(linkage, process%number)
     case (over_travel)
@@ -88,9 +95,12 @@ contains
       load%variable = angle_between(linkage, 0, findloc(links, process%number, dim=1))
       ! As in `kinematics.dat`, from −180° to 180°.
       load%variable%drive = 0
+      nature = angle_nature
     case (card_over_time)
       load%over = over_time
     end select
+    load%variable_unit = coherent_unit(model%units, nature%value)
+    if (load%over == over_time) load%variable_unit = coherent_unit(model%units, dimension_time)
   end subroutine set_table
 
 end module process_builder

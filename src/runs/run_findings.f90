@@ -21,6 +21,7 @@ module run_findings
     real(wp), allocatable :: time            !! at which a motion ended, or of an instant [s]
     character(len=:), allocatable :: crank_words !! in the unit of results: `45 deg`; with a crank
     character(len=:), allocatable :: speed_words !! likewise: `speed 300 rpm`; with a speed
+    character(len=:), allocatable :: time_words !! in the unit of the deck: `25 ms`; with a time
     type(error_t), allocatable :: error      !! the reason
     character(len=:), allocatable :: variant !! `L=90mm`; empty for a deck without VARY
     real(wp), allocatable :: varied(:)       !! (parameters) values, in the units of their VARY
@@ -189,6 +190,7 @@ contains
     call stream%pass_allocatable(failure%time)
     call stream%pass_text(failure%crank_words)
     call stream%pass_text(failure%speed_words)
+    call stream%pass_text(failure%time_words)
     call pass_error(stream, failure%error)
     call stream%pass_text(failure%variant)
     call stream%pass_allocatable(failure%varied)

@@ -12,6 +12,7 @@ module applied_load_types
   use coordinate_types, only: coordinate_t, is_angle, terminal_t
   use cubic_splines, only: cubic_spline_t
   use kinds, only: wp
+  use units, only: unit_t
   implicit none (type, external)
   private
 
@@ -50,6 +51,7 @@ module applied_load_types
     type(coordinate_t) :: variable        !! that a table is over, which may be a sum
     type(cubic_spline_t) :: table         !! of forces or couples [N] or [N m]
     character(len=:), allocatable :: table_name !! for messages
+    type(unit_t) :: variable_unit         !! of what a table is over, likewise
     character(len=:), allocatable :: angle_name !! of the link whose angle it is over, for messages
     character(len=:), allocatable :: variable_name !! of the coordinate with a name, likewise
     real(wp) :: tension = 0.0_wp          !! [N] or [N m]

@@ -5,7 +5,7 @@ module load_tables
     over_nothing, over_time
   use constants, only: degree
   use coordinate_types, only: is_angle, is_sum
-  use coordinates, only: coordinate_value, evaluated_t, is_turning
+  use coordinates, only: coordinate_value, evaluated_t
   use cubic_splines, only: spline_values
   use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
@@ -14,6 +14,7 @@ module load_tables
   use pose_types, only: pose_t
   use pulls, only: counts_turns, deflection
   use text, only: to_string
+  use units, only: from_si
   implicit none (type, external)
   private
 
@@ -57,21 +58,17 @@ contains
         first = load%table%x(1)
         last = load%table%x(size(load%table%x))
         if (x >= first - slack*(last - first) .and. x <= last + slack*(last - first)) cycle
-        words = "the table "//load%table_name//trim(merge(" begins later", " ends before ", &
-          x < first))
-        if (load%over == over_time) words = words//": it is over the time, here "//to_string(x)// &
-          " s"
-        if (allocated(load%variable_name)) then
-          words = words//": it is over '"//load%variable_name//"', here "
-          if (is_turning(linkage, load%variable)) then
-            words = words//to_string(x/degree)//" deg"
-          else
-            words = words//to_string(x)//" m"
-          end if
-        end if
-        if (allocated(load%angle_name)) words = words//": it is over the angle of the link '"// &
-          load%angle_name//"', here "//to_string(x/degree)//" deg; without 'over=' a table is "// &
-          "over the first drive and its turns"
+        associate (here => from_si(x, load%variable_unit), unit => load%variable_unit%name, &
+            end_of => from_si(merge(first, last, x < first), load%variable_unit))
+          words = "the table "//load%table_name//" "//trim(merge("begins", "ends  ", x < &
+            first))//" at "//to_string(end_of, 6)//" "//unit
+          if (load%over == over_time) words = words//": it is over the time"
+          if (allocated(load%variable_name)) words = words//": it is over '"// &
+            load%variable_name//"', here "//to_string(here, 6)//" "//unit
+          if (allocated(load%angle_name)) words = words//": it is over the angle of the link '"// &
+            load%angle_name//"', here "//to_string(here, 6)//" "//unit//"; without 'over=' a "// &
+            "table is over the first drive and its turns"
+        end associate
         call set_error(error, error_of_numerics, words)
         return
       end associate

@@ -5,7 +5,6 @@ module redundancies
   use kinds, only: wp
   use linkages, only: demand_angle, demand_length, demand_turn, linkage_t
   use pose_types, only: pose_t
-  use text, only: to_string
   implicit none (type, external)
   private
 
@@ -65,8 +64,8 @@ contains
     if (size(linkage%redundancies) == 0) return
     call largest_misfit(linkage, pose, crank, misfit, number)
     if (is_fit(linkage, pose, misfit)) return
-    call set_error(error, error_of_reach, "the redundant link does not fit, by "// &
-      to_string(abs(misfit), 3)//" m", body=body_of_redundancy(linkage, number))
+    call set_error(error, error_of_reach, "the redundant link does not fit", &
+      body=body_of_redundancy(linkage, number), missing=misfit)
   end subroutine refuse_misfit
 
   !> Whether a misfit is small enough. The smaller determinants are, the more do pins move for what

@@ -23,6 +23,7 @@ module law_checks
   use time_formulas, only: find_trouble
   use tokens, only: token_t
   use units, only: dimension_time
+  use value_words, only: in_words
   implicit none (type, external)
   private
 
@@ -343,8 +344,8 @@ contains
     if (.not. fine) then
       associate (bytes => program%formula%steps(step)%place)
         call add_error(diagnostics, place_in(card%formula_words, max(bytes, 1)), &
-          "this has no value, or no acceleration, near t = "//to_string(time, 6)//" s: it "// &
-          "divides by 0, has a root of 0 or less, or grows beyond 1e30")
+          "this has no value, or no acceleration, near t = "//in_words(time, dimension_time, &
+          model%units, 6)//": it divides by 0, has a root of 0 or less, or grows beyond 1e30")
       end associate
       return
     end if
@@ -487,10 +488,10 @@ contains
         associate (t => time%value(i))
           if (card%ends /= table_free .or. (t >= first .and. t <= last)) cycle
           call add_error(diagnostics, time%words(time%word(i)), "the table '"// &
-            card%table_word%text//"' goes from "//to_string(first, 10)//" to "// &
-            to_string(last, 10)//" s, and this instant is "//to_string(t, 10)// &
-            " s; 'ends=rest' stands still beyond, 'ends=periodic' repeats", card%table_word, &
-            "its table is given here")
+            card%table_word%text//"' goes from "//in_words(first, dimension_time, model%units, &
+            10)//" to "//in_words(last, dimension_time, model%units, 10)//", and this instant "// &
+            "is "//in_words(t, dimension_time, model%units, 10)//"; 'ends=rest' stands still "// &
+            "beyond, 'ends=periodic' repeats", card%table_word, "its table is given here")
           return
         end associate
       end do

@@ -13,6 +13,8 @@ module spring_checks
   use spring_cards, only: is_spring_card, read_spring, spring_card_t
   use text, only: same_word, to_string
   use tokens, only: token_t, token_texts
+  use units, only: dimension_length
+  use value_words, only: in_words
   implicit none (type, external)
   private
 
@@ -329,7 +331,7 @@ contains
     rest = norm2(place(:, 2) - place(:, 1)) - spring%load/spring%stiffness
     if (rest < 0.0_wp) call add_error(diagnostics, spring%load_word, "with this force in the "// &
       "drawing and its stiffness the free length of the spring would be negative: "// &
-      to_string(rest, 6)//" m")
+      in_words(rest, dimension_length, model%units, 6))
   end subroutine check_drawn
 
   pure subroutine refuse_undrawn(diagnostics, spring, key, name)

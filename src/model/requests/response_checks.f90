@@ -11,10 +11,11 @@ module response_checks
     report_in_motion, report_number, report_with
   use name_checks, only: link_ends
   use name_index, only: name_index_t, new_name_index
-  use text, only: same_word, to_string
+  use text, only: same_word
   use tokens, only: token_t, token_texts
   use transient_cards, only: transient_card_t
-  use units, only: dimension_name, dimension_none
+  use units, only: dimension_name, dimension_none, dimension_time
+  use value_words, only: in_words
   implicit none (type, external)
   private
 
@@ -237,8 +238,9 @@ contains
       do i = 2, size(time%value)
         if (time%value(i) > time%value(i - 1)) cycle
         call add_error(diagnostics, time%words(time%word(i)), "a motion in time goes from "// &
-          "instant to instant, and this one, "//to_string(time%value(i), 10)// &
-          " s, does not come after the one before, "//to_string(time%value(i - 1), 10)//" s")
+          "instant to instant, and this one, "//in_words(time%value(i), dimension_time, &
+          model%units, 10)//", does not come after the one before, "// &
+          in_words(time%value(i - 1), dimension_time, model%units, 10))
         return
       end do
     end associate

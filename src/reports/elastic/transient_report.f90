@@ -15,7 +15,8 @@ module transient_report
   use tables, only: name_cell
   use text, only: append_string, string_t, to_string
   use transient_types, only: speed_transient_t
-  use units, only: from_si
+  use units, only: dimension_length, dimension_time, dimension_velocity, from_si
+  use value_words, only: in_words
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -94,13 +95,13 @@ contains
           end if
           if (asked%mode > 0) words = words//", with the shape of mode "//to_string(asked%mode)// &
             " of the mechanism frozen there, its largest displacement along a link "// &
-            to_string(asked%amplitude, 9)//" m"
+            in_words(asked%amplitude, dimension_length, model%units, 9)
           if (abs(asked%velocity) > 0.0_wp) words = words//", its largest velocity "// &
-            to_string(asked%velocity, 9)//" m/s"
+            in_words(asked%velocity, dimension_velocity, model%units, 9)
           call append_string(notes, words)
           words = "crank: at constant speed"
           if (model%ramp > 0.0_wp) words = "crank: from rest with constant acceleration for "// &
-            to_string(model%ramp)//" s, then at constant speed"
+            in_words(model%ramp, dimension_time, model%units, 9)//", then at constant speed"
           if (has_law(model)) words = "crank: by the law '"//model%drives(1)%law%text//"'"
           call append_string(notes, words//"; its angle continues past whole turns")
           call append_string(notes, damping_note(variant))

@@ -10,6 +10,8 @@ module four_bar_motion_format
   use table_columns, only: cells, column_width, name_list_t, table_layout_t
   use tables, only: name_cell, real_cells
   use text, only: to_string, word_list
+  use units, only: dimension_time
+  use value_words, only: in_words
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -129,13 +131,14 @@ contains
   end function branch_of
 
   !> What the log says of a point at which the crank turned back, or of a change point passed.
-  pure function four_bar_event(motion, number) result(words)
+  pure function four_bar_event(model, motion, number) result(words)
+    type(model_t), intent(in) :: model         !! its units
     type(motion_result_t), intent(in) :: motion !! of a linkage of one loop
     integer, intent(in) :: number               !! of the passage
     character(len=:), allocatable :: words
 
     associate (passage => motion%passages(number))
-      words = "motion: at t="//to_string(passage%time, 12)//" s the "
+      words = "motion: at t="//in_words(passage%time, dimension_time, model%units, 12)//" the "
       if (passage%group > 0) then
         words = words//"crank turns back at "//to_string(passage%position, 12)// &
           " deg; the linkage changes from "//trim(branch_of(.not. passage%to_left))//" to "// &

@@ -25,7 +25,8 @@ module motion_report
   use tables, only: decimal_cell
   use text, only: append_string, plural, string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
-  use units, only: from_si, unit_t
+  use units, only: dimension_time, from_si, unit_t
+  use value_words, only: in_words
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -339,7 +340,7 @@ contains
       if (allocated(motion%passages)) then
         do i = 1, min(most_listed, size(motion%passages))
           if (is_of_four_bar(variant%model, "motion")) then
-            call append_text(buffer, four_bar_event(motion, i)//line_feed)
+            call append_text(buffer, four_bar_event(variant%model, motion, i)//line_feed)
           else
             call append_text(buffer, event_words(variant, i)//line_feed)
           end if
@@ -359,7 +360,8 @@ contains
     character(len=:), allocatable :: words
 
     associate (mechanism => variant%mechanism, passage => variant%found%motion%passages(number))
-      words = "motion: at t="//to_string(passage%time, 12)//" s, the first drive at "// &
+      words = "motion: at t="//in_words(passage%time, dimension_time, variant%model%units, 12)// &
+        ", the first drive at "// &
         to_string(shown_crank(variant, passage%position), 12)//" "//unit_of_drive(variant)
       if (passage%group == 0) then
         words = words//", the linkage goes straight through a change point"

@@ -6,6 +6,8 @@ module response_notes
   use response_study, only: largest_deflection
   use table_rows, only: add_failed_row, rows_t
   use text, only: append_string, string_t, to_string
+  use units, only: dimension_time
+  use value_words, only: in_words
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -85,7 +87,8 @@ contains
           else if (link%damping == 0) then
             note = note//" none"
           else if (model%dampings(link%damping)%has_time) then
-            note = note//" time "//to_string(model%dampings(link%damping)%time)//" s"
+            note = note//" time "//in_words(model%dampings(link%damping)%time, dimension_time, &
+              model%units, 9)
           else
             note = note//" ratio "//to_string(model%dampings(link%damping)%ratio)
           end if

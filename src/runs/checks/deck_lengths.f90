@@ -11,6 +11,7 @@ module deck_lengths
   use models, only: drives_length, model_t, runs_in_time
   use text, only: to_string
   use units, only: coherent_unit, dimension_length, from_si, unit_t
+  use value_words, only: in_words
   implicit none (type, external)
   private
 
@@ -34,10 +35,7 @@ contains
     integer, intent(in) :: digits      !! at most
     character(len=:), allocatable :: words
 
-    type(unit_t) :: measure
-
-    measure = coherent_unit(model%units, dimension_length)
-    words = to_string(in_deck(model, length), digits)//" "//measure%name
+    words = in_words(length, dimension_length, model%units, digits)
   end function length_text
 
   !> `12.5 mm too short`

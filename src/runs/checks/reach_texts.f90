@@ -1,6 +1,6 @@
 !> What a linkage reaches, in words: for messages about a deck and for failed rows.
 module reach_texts
-  use deck_lengths, only: missing_text
+  use deck_lengths, only: length_text, missing_text
   use errors, only: error_t
   use kinds, only: wp
   use mechanisms, only: mechanism_t
@@ -48,19 +48,20 @@ contains
     type(error_t), intent(in) :: error         !! of a position out of reach
     character(len=:), allocatable :: words
 
-    words = ""
-    if (error%place%body == 0) return
-    words = "'"//mechanism%names(error%place%body)%text//"'"
-    if (error%place%other > 0) then
-      words = words//" and '"//mechanism%names(error%place%other)%text//"' together are"
+    words = "a block on a GUIDE"
+    if (error%place%body > 0) words = "'"//mechanism%names(error%place%body)%text//"'"
+    if (index(error%text, "redundant") > 0) then
+      words = words//" does not fit, by "//length_text(model, abs(error%missing), 3)
+    else if (error%place%body == 0) then
+      words = ""
+    else if (error%place%other > 0) then
+      words = words//" and '"//mechanism%names(error%place%other)%text//"' together are "// &
+        missing_text(model, error%missing)
     else if (abs(error%missing) > 0.0_wp) then
-      words = words//" is"
+      words = words//" is "//missing_text(model, error%missing)
     else
-      words = words//" does not "//trim(merge("fit  ", "reach", index(error%text, &
-        "redundant") > 0))
-      return
+      words = words//" does not reach"
     end if
-    words = words//" "//missing_text(model, error%missing)
   end function reach_words
 
 end module reach_texts

@@ -7,7 +7,8 @@ module study_findings
   use models, only: has_law, model_t, nature_of_positions, speed_in_words
   use run_findings, only: add_failure, add_warning_of_run, failure_t, findings_t
   use text, only: to_string
-  use units, only: from_si, unit_t
+  use units, only: dimension_time, from_si, unit_t
+  use value_words, only: in_words
   use variant_results, only: variant_results_t
   use warnings, only: grade_meaningless, warning_t
   implicit none (type, external)
@@ -98,6 +99,8 @@ contains
       unit = unit_of_positions(variant%model)
       failure%crank_words = to_string(from_si(failure%crank, unit), 12)//" "//unit%name
     end if
+    if (allocated(failure%time)) failure%time_words = in_words(failure%time, dimension_time, &
+      variant%model%units, 12)
     failure%variant = variant%model%variant
     failure%varied = variant%model%varied
     call add_failure(findings, failure)

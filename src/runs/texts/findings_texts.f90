@@ -32,7 +32,7 @@ contains
     line = ""
     if (all(failure%stage /= [character(len=11) :: "position", "frequencies"])) line = ", "// &
       trim(failure%stage)
-    if (allocated(failure%time)) line = line//", time "//to_string(failure%time, 12)//" s"
+    if (allocated(failure%time)) line = line//", time "//failure%time_words
     if (allocated(failure%speed)) line = line//", "//failure%speed_words
     if (allocated(failure%crank)) line = line//", crank "//failure%crank_words
     line = line(3:)
