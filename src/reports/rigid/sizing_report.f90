@@ -16,7 +16,8 @@ module sizing_report
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: name_cell
   use text, only: append_string, string_t, to_string, trimmed_list, word_list
-  use units, only: from_si, unit_t
+  use units, only: dimension_time, from_si, unit_t
+  use value_words, only: in_words
   use variant_results, only: variant_results_t
   implicit none (type, external)
   private
@@ -109,12 +110,13 @@ contains
       note = "over a cycle of "//to_string(found%period, 6)//" deg of the first drive at "// &
         "constant speed: "//to_string(found%samples)//" samples, peaks enclosed between them"
     else if (found%repeats) then
-      note = "over a period of "//to_string(found%period, 6)//" s of the laws: "// &
-        to_string(found%samples)//" samples, peaks enclosed between them"
+      note = "over a period of "//in_words(found%period, dimension_time, variant%model%units, &
+        6)//" of the laws: "//to_string(found%samples)//" samples, peaks enclosed between them"
     else
-      note = "over the "//to_string(found%samples)//" instants of TIME, "// &
-        to_string(found%period, 6)//" s, as the cycle: peaks are the greatest values "// &
-        "between the first and the last, means those of straight lines between instants"
+      note = "over the "//in_words(found%period, dimension_time, variant%model%units, 6)// &
+        " from the first to the last instant of TIME as the cycle: "// &
+        to_string(found%samples)//" samples, at instants, jumps of laws, "// &
+        "rows of tables over the time, and between these; peaks enclosed between samples"
     end if
   end function cycle_note
 

@@ -1,6 +1,7 @@
 !> Ratings of motors, bearings and the flywheel of a linkage over its whole cycle.
 module sizing_study
   use actuated_forces, only: actuator_sense
+  use applied_load_types, only: over_time
   use constants, only: degree
   use cycle_forces, only: cycle_forces_t, is_timed, of_forces, of_powers, of_rates, sizing_request_t
   use elastic_reactions, only: elastic_division_t
@@ -14,7 +15,7 @@ module sizing_study
   use kinds, only: wp
   use lagrange_study, only: find_lagrange_terms, lagrange_result_t
   use linkages, only: is_actuated, linkage_t
-  use motion_programs, only: motion_program_t, program_period
+  use motion_programs, only: motion_program_t, program_breaks, program_period
   use linkage_paths, only: period_of
   use load_tables, only: load_period
   use positions, only: positions_t
@@ -27,6 +28,10 @@ module sizing_study
 
   !> Samples of a cycle, per turn; and the most in all.
   integer, parameter :: fewest_samples = 128, most_samples = 8192
+
+  !> Of pieces in time, means settle slower: samples are doubled until no result changes by more
+  !! than this share of its peak. Instants nearer to each other than a share of the time are one.
+  real(wp), parameter :: settled_by_pieces = 1.0e-9_wp, one_instant = 1.0e-12_wp
 
   !> A force below this share of the largest of its kind, and a mean below this share of the peak,
   !! is round-off and written as 0.
@@ -44,6 +49,7 @@ module sizing_study
     real(wp), allocatable :: at(:)    !! (samples) [deg], of laws [s]
     real(wp), allocatable :: width(:) !! (samples) of the interval behind it, the last behind which
                                       !! the cycle begins again; any unit
+    real(wp), allocatable :: weight(:) !! (samples) with which means are summed; any unit
     real(wp) :: from = 0.0_wp         !! where it begins
     real(wp) :: period = 0.0_wp       !! its length
     real(wp) :: unit = 1.0_wp         !! in which peaks are enclosed: 1 deg, or a 360th part of a
@@ -68,7 +74,8 @@ contains
   !!
   !! Peaks between samples are enclosed by golden-section search around the three highest samples.
   !! Errors are estimated by those with half as many samples. Of laws the cycle is a period that
-  !! they have, or what the instants span, which then are its samples. Errors:
+  !! they have, or what the instants span: then samples divide the pieces between instants, jumps
+  !! of laws and rows of tables over the time. Errors:
   !! the first drive does not turn fully, positions and loads do not repeat, or those of a position.
   subroutine find_sizing(linkage, elements, request, threads, found, division)
     type(linkage_t), intent(in) :: linkage       !! of any kind, with masses
@@ -85,7 +92,9 @@ contains
     type(sizing_t), allocatable :: last(:)
     type(positions_t) :: positions
     type(joints_result_t) :: joints
+    real(wp), allocatable :: nodes(:)
     real(wp) :: change
+    integer :: level
 
     forces%linkage = linkage
     forces%elements = elements
@@ -93,26 +102,26 @@ contains
     if (present(division)) forces%division = division
     call choose_cycle(forces, span, found)
     if (allocated(found%error)) return
-    if (.not. span%repeats) then
-      call take_instants(request%times, .true., span)
-      call size_cycle(forces, span, threads, found, positions, joints)
-      if (allocated(found%error)) return
-      call move_alloc(found%at_speed, last)
-      call take_instants(request%times, .false., span)
-      call size_cycle(forces, span, threads, found, positions, joints)
-      if (.not. allocated(found%error)) change = largest_change(found%at_speed, last)
-      return
-    end if
+    level = 0
+    if (.not. span%repeats) call find_nodes(forces, span, nodes)
     do
-      call take_samples(found%samples, span)
+      if (span%repeats) then
+        call take_samples(found%samples, span)
+      else
+        call divide_pieces(nodes, level, span)
+        found%samples = size(span%at)
+        level = level + 1
+        if (found%samples < fewest_samples) cycle
+      end if
       call size_cycle(forces, span, threads, found, positions, joints)
       if (allocated(found%error)) return
       if (request%fluctuation > 0.0_wp) call find_flywheels(forces, span, positions, threads, found)
       change = huge(change)
       if (allocated(last)) change = largest_change(found%at_speed, last)
-      if (change <= settled .or. 2*found%samples > most_samples .or. was_interrupted()) exit
+      if (change <= merge(settled, settled_by_pieces, span%repeats) .or. was_interrupted()) exit
+      if (2*found%samples > most_samples .and. (span%repeats .or. allocated(last))) exit
       call move_alloc(found%at_speed, last)
-      found%samples = 2*found%samples
+      if (span%repeats) found%samples = 2*found%samples
     end do
   end subroutine find_sizing
 
@@ -136,7 +145,7 @@ contains
           span%period = maxval(request%times) - span%from
         end if
         span%unit = span%period/360.0_wp
-        found%samples = merge(fewest_samples, size(request%times), span%repeats)
+        found%samples = fewest_samples
         if (.not. span%repeats .and. size(request%times) < 2) call set_error(found%error, &
           error_of_input, "one instant is no cycle")
       end if
@@ -213,21 +222,81 @@ contains
 
     span%at = [(span%from + span%period*(i - 1)/number, i=1, number)]
     span%width = [(1.0_wp, i=1, number)]
+    span%weight = span%width
   end subroutine take_samples
 
-  !> Instants as the samples of a cycle, all or every second one and the last.
-  pure subroutine take_instants(times, halved, span)
-    real(wp), intent(in) :: times(:)
-    logical, intent(in) :: halved
+  !> Between which all is smooth, but for what joints and friction do: the instants, rows of tables
+  !! over the time, and jumps of laws, these twice: before and behind the jump.
+  subroutine find_nodes(forces, span, nodes)
+    type(cycle_forces_t), intent(in) :: forces
+    type(cycle_t), intent(in) :: span
+    real(wp), allocatable, intent(out) :: nodes(:) !! rising [s]
+
+    real(wp), allocatable :: jumps(:), all(:)
+    real(wp) :: aside
+    integer :: i
+
+    jumps = [real(wp) ::]
+    if (allocated(forces%request%program)) call append_jumps(forces%request%program)
+    associate (linkage => forces%linkage)
+      do i = 1, size(linkage%drives)
+        if (.not. allocated(forces%request%program) .and. linkage%drives(i)%has_law) call &
+          append_jumps(linkage%drives(i)%law)
+      end do
+      ! A few roundings: what is smooth on either side does not notice them.
+      aside = 16.0_wp*spacing(maxval(abs(span%from + [0.0_wp, span%period])))
+      all = [forces%request%times, jumps - aside, jumps + aside]
+      if (allocated(linkage%loads)) then
+        do i = 1, size(linkage%loads)
+          if (linkage%loads(i)%over == over_time) all = [all, linkage%loads(i)%table%x]
+        end do
+      end if
+    end associate
+    all = pack(all, all >= span%from .and. all <= span%from + span%period)
+    nodes = all(ascending_order(all))
+
+  contains
+
+    !> With those at the end of the span.
+    subroutine append_jumps(program)
+      type(motion_program_t), intent(in) :: program
+
+      jumps = [jumps, program_breaks(program, span%from, span%from + (1.0_wp + &
+        4.0_wp*one_instant)*span%period)]
+    end subroutine append_jumps
+
+  end subroutine find_nodes
+
+  !> Samples of pieces: each is halved so many times, and its mean is by Simpson's rule.
+  pure subroutine divide_pieces(nodes, level, span)
+    real(wp), intent(in) :: nodes(:) !! rising [s]
+    integer, intent(in) :: level     !! 0: its ends alone
     type(cycle_t), intent(inout) :: span
 
-    integer :: n
+    integer :: parts(size(nodes) - 1), i, k, n
+    real(wp) :: step
 
-    n = size(times)
-    span%at = times(ascending_order(times))
-    if (halved) span%at = [span%at(:n - 1:2), span%at(n)]
-    span%width = [span%at(2:) - span%at(:size(span%at) - 1), 0.0_wp]
-  end subroutine take_instants
+    parts = 2**level
+    where (nodes(2:) - nodes(:size(parts)) <= one_instant*span%period) parts = 1
+    if (allocated(span%at)) deallocate (span%at, span%weight)
+    allocate (span%at(sum(parts) + 1), span%weight(sum(parts) + 1))
+    span%weight = 0.0_wp
+    n = 0
+    do i = 1, size(parts)
+      step = (nodes(i + 1) - nodes(i))/parts(i)
+      span%at(n + 1:n + parts(i)) = [(nodes(i) + k*step, k=0, parts(i) - 1)]
+      if (parts(i) == 1) then
+        span%weight(n + 1:n + 2) = span%weight(n + 1:n + 2) + 0.5_wp*step
+      else
+        do k = 1, parts(i), 2
+          span%weight(n + k:n + k + 2) = span%weight(n + k:n + k + 2) + step/3.0_wp*[1, 4, 1]
+        end do
+      end if
+      n = n + parts(i)
+    end do
+    span%at(n + 1) = nodes(size(nodes))
+    span%width = [span%at(2:) - span%at(:n), 0.0_wp]
+  end subroutine divide_pieces
 
   !> All forces of a cycle at all speeds; an error where one of its samples has none.
   subroutine size_cycle(forces, span, threads, found, positions, joints)
@@ -370,15 +439,13 @@ contains
     end associate
   end subroutine size_motion
 
-  !> The mean over the cycle, of linear pieces between samples.
+  !> The mean over the cycle.
   pure function mean_of(span, values) result(mean)
     type(cycle_t), intent(in) :: span
     real(wp), intent(in) :: values(:) !! (samples)
     real(wp) :: mean
 
-    associate (weight => 0.5_wp*(span%width + cshift(span%width, -1)))
-      mean = sum(weight*values)/sum(weight)
-    end associate
+    mean = sum(span%weight*values)/sum(span%weight)
   end function mean_of
 
   !> Whether a force has no peak to look for.
