@@ -42,7 +42,7 @@ module element_eigensolver
   real(wp), parameter :: same_eigenvalue = 1.0e-3_wp
 
   !> Rounding error of an eigenvalue, in units of ε times the terms of its Rayleigh quotient.
-  real(wp), parameter :: rounding = 4.0_wp
+  real(wp), parameter :: rounding = 16.0_wp
 
   !> Relative distances above the last wanted mode at which modes are counted, the first that
   !! proves; the least as of `completeness_proof`.
