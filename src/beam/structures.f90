@@ -30,7 +30,7 @@ module structures
 
   !> Number of parts from which the mixed form is faster than a border, and of binary links from
   !! which it is faster than their closed forms.
-  integer, parameter :: many_parts = 12, many_links = 32
+  integer, parameter :: many_parts = 16, many_links = 40
 
 contains
 

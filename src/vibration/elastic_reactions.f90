@@ -18,6 +18,7 @@ module elastic_reactions
   use kinds, only: wp
   use linkages, only: body_t, cross, drive_of_angle, forced_place_t, linkage_t, lump_t
   use load_cases, only: case_count, find_unit_loads
+  use mixed_positions, only: find_mixed_forces
   use part_displacements, only: border_size
   use part_efforts, only: add_end_couple, add_friction_effort, add_moving_efforts, effort_case, &
     no_part_loads
@@ -26,7 +27,8 @@ module elastic_reactions
   use part_reactions, only: take_part_reactions
   use pin_displacements, only: chords_t
   use poses, only: arm_to_place, pose_t
-  use position_assembly, only: assembled_t, load_parts, new_assembled, place_parts, set_border
+  use position_assembly, only: assembled_t, choose_form, load_mixed, load_parts, new_assembled, &
+    place_parts
   use reactions, only: unit_reactions_t
   use running_loads, only: divided_t, velocities_at
   use structures, only: structure_t
@@ -108,7 +110,7 @@ contains
       parts), spread(least_order, 1, parts), spread(.false., 1, parts), model, error, &
       held=structure%elastic%held)
     if (allocated(error)) return
-    if (present(crank)) call set_border(structure, crank, model)
+    if (present(crank)) call choose_form(structure, crank, model)
   end subroutine new_elastic_model
 
   !> Springs become loads. Where the masses of a part sit on the nodes of its elements, their forces
@@ -159,9 +161,28 @@ contains
     type(elastic_position_t), intent(inout) :: at
 
     call lump_loads(division, at, at%here%part_loads)
-    call find_part_forces(division%structure%linkage, at%here%elastic, at%here%model%links, &
-      at%here%pose, at%here%part_loads, at%here%border, at%chords, at%here%part_forces)
+    call find_forces(division, at, at%here%part_loads, at%here%part_forces)
   end subroutine load_nodes
+
+  !> The forces in the parts under loads.
+  pure subroutine find_forces(division, at, loads, forces)
+    type(elastic_division_t), intent(in) :: division
+    type(elastic_position_t), intent(in) :: at
+    type(part_loads_t), intent(in) :: loads
+    type(part_forces_t), intent(out) :: forces
+
+    real(wp), allocatable :: solution(:, :)
+
+    associate (here => at%here)
+      if (allocated(here%mixed)) then
+        call find_mixed_forces(division%structure%linkage, here%elastic, here%model%links, &
+          here%pose, loads, here%mixed, forces, solution)
+      else
+        call find_part_forces(division%structure%linkage, here%elastic, here%model%links, &
+          here%pose, loads, here%border, at%chords, forces)
+      end if
+    end associate
+  end subroutine find_forces
 
   !> Puts the inertia loads of such parts on their nodes.
   pure subroutine lump_loads(division, at, loads)
@@ -215,7 +236,11 @@ contains
     at%pose = pose
     at%here = new_assembled(division%structure, division%model)
     at%here%loads = find_unit_loads(division%structure%linkage, pose, coefficients)
-    call load_parts(division%structure, division%model, pose, at%here, at%chords, error)
+    if (division%model%mixed) then
+      call load_mixed(division%structure, division%model, pose, .false., at%here, error)
+    else
+      call load_parts(division%structure, division%model, pose, at%here, at%chords, error)
+    end if
     if (allocated(error)) return
     if (any(division%structure%load_elements > 0)) call load_nodes(division, at)
     do i = 1, case_count
@@ -266,8 +291,13 @@ contains
     real(wp), intent(in), optional :: given(:)
     integer, allocatable, intent(out), optional :: open(:)
 
-    call take_part_reactions(division%structure%linkage, at%here%elastic, at%here%model%links, &
-      at%here%pose, loads, at%here%border, forces, case, joints, given, open)
+    if (allocated(at%here%mixed)) then
+      call take_part_reactions(division%structure%linkage, at%here%elastic, at%here%model%links, &
+        at%here%pose, loads, at%here%mixed%form%numbers, forces, case, joints, given, open)
+    else
+      call take_part_reactions(division%structure%linkage, at%here%elastic, at%here%model%links, &
+        at%here%pose, loads, at%here%border%numbers, forces, case, joints, given, open)
+    end if
   end subroutine find_case_forces
 
   !> The forces in the joints under other loads.
@@ -279,8 +309,7 @@ contains
 
     type(part_forces_t) :: forces
 
-    call find_part_forces(division%structure%linkage, at%here%elastic, at%here%model%links, &
-      at%here%pose, loads, at%here%border, at%chords, forces)
+    call find_forces(division, at, loads, forces)
     call find_case_forces(division, at, loads, forces, effort_case, joints)
   end subroutine find_effort_forces
 
@@ -452,24 +481,28 @@ contains
     forces%constraint = 0.0_wp
     joints = no_joint_forces(division%structure%linkage)
     call find_case_forces(division, at, loads, forces, effort_case, joints, open=open)
-    associate (border => at%here%border)
-      n = border%basis%idle_constraints
+    ! In mixed form no constraint follows from others.
+    n = 0
+    if (allocated(at%here%border)) n = at%here%border%basis%idle_constraints
+    associate (size_of => maxval(at%here%elastic%linkage%bodies%length))
       allocate (states(n + size(open)), given(size(open)))
       do i = 1, size(states)
         given = 0.0_wp
         forces%constraint(:, effort_case) = 0.0_wp
         if (i <= n) then
-          forces%constraint(:, effort_case) = border%basis%dependence(:, i)
+          forces%constraint(:, effort_case) = at%here%border%basis%dependence(:, i)
         else
           given(i - n) = 1.0_wp
         end if
-        do k = 1, size(border%numbers%line_constraint)
-          j = border%numbers%line_constraint(k)
-          if (j > 0) forces%guide(k, effort_case) = -forces%constraint(j, effort_case)
-        end do
+        if (n > 0) then
+          do k = 1, size(at%here%border%numbers%line_constraint)
+            j = at%here%border%numbers%line_constraint(k)
+            if (j > 0) forces%guide(k, effort_case) = -forces%constraint(j, effort_case)
+          end do
+        end if
         states(i) = no_joint_forces(division%structure%linkage)
         call find_case_forces(division, at, loads, forces, effort_case, states(i), given)
-        call scale(border%numbers%size_of, states(i))
+        call scale(size_of, states(i))
       end do
     end associate
 

@@ -15,7 +15,8 @@ module position_assembly
   use link_modes, only: rigid
   use linkages, only: drive_of_length
   use load_cases, only: find_unit_loads, unit_loads_t
-  use mixed_positions, only: assemble_mixed, is_held, mixed_position_t, new_mixed_position
+  use mixed_positions, only: assemble_rest, find_mixed_forces, hold, is_held, mixed_position_t, &
+    new_mixed_position, stiffen
   use part_displacements, only: border_size, border_t, find_part_chords, new_border
   use part_forces, only: find_part_forces, part_forces_t
   use part_poses, only: find_part_loads, part_loads_t, place_parts_of
@@ -28,7 +29,7 @@ module position_assembly
   private
 
   public :: assembled_t, new_assembled, assemble_position, choose_form, set_border, place_parts, &
-    load_parts
+    load_parts, load_mixed
 
   !> A linkage at a position. Of binary links and pins there are only `loads` and `unit_force`.
   type :: assembled_t
@@ -85,7 +86,8 @@ contains
         if (allocated(error)) cycle
         call place_parts(structure, model, pose, here, error)
         if (allocated(error)) cycle
-        if (is_held(here%elastic, here%model%links, here%pose, here%mixed)) return
+        call assemble_rest(here%elastic, here%model%links, here%pose, here%mixed)
+        if (is_held(here%mixed)) return
       end do
       model%mixed = .false.
     end if
@@ -148,7 +150,7 @@ contains
       return
     end if
     if (allocated(here%mixed)) then
-      call load_mixed(structure, model, pose, here, error)
+      call load_mixed(structure, model, pose, .true., here, error)
     else
       call load_parts(structure, model, pose, here, equations%chords, error)
     end if
@@ -202,22 +204,31 @@ contains
       here%part_loads, here%border, chords, here%part_forces)
   end subroutine load_parts
 
-  !> Places the parts, and finds their matrices and forces in mixed form.
+  !> Places the parts, and finds their matrices and forces in mixed form, and K_G if it is asked
+  !! for; without loads K is not factorized for that.
   !!
-  !! Errors: those of `place_parts` and `assemble_mixed`.
-  subroutine load_mixed(structure, model, pose, here, error)
-    class(structure_t), intent(in) :: structure
-    type(deformation_model_t), intent(in) :: model
-    type(pose_t), intent(in) :: pose
-    type(assembled_t), intent(inout) :: here
+  !! Errors: those of `place_parts` and `hold`.
+  subroutine load_mixed(structure, model, pose, with_stiffness, here, error)
+    class(structure_t), intent(in) :: structure      !! with parts
+    type(deformation_model_t), intent(in) :: model   !! of these, in mixed form
+    type(pose_t), intent(in) :: pose                 !! of the linkage that moves
+    logical, intent(in) :: with_stiffness
+    type(assembled_t), intent(inout) :: here         !! of this model, with the loads of this pose
     type(error_t), allocatable, intent(out) :: error
 
     call place_parts(structure, model, pose, here, error)
     if (allocated(error)) return
     call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
       here%part_loads)
-    call assemble_mixed(structure%linkage, here%elastic, here%model%links, here%pose, &
-      here%part_loads, here%mixed, here%part_forces, error)
+    associate (elastic => here%elastic, links => here%model%links, mixed => here%mixed)
+      call assemble_rest(elastic, links, here%pose, mixed)
+      if (any(here%loads%occurs) .or. .not. with_stiffness) call hold(here%pose, mixed, error)
+      if (allocated(error)) return
+      call find_mixed_forces(structure%linkage, elastic, links, here%pose, here%part_loads, mixed, &
+        here%part_forces, mixed%solution)
+      if (with_stiffness) call stiffen(elastic, links, here%pose, here%part_loads, &
+        here%part_forces, mixed)
+    end associate
   end subroutine load_mixed
 
   !> Places the parts, and renews the own modes of those whose lengths have changed, and the lengths

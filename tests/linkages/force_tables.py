@@ -259,7 +259,8 @@ def with_reports(lines):
 
 
 def of_case(case):
-    return with_reports([line for line in case.text(5).splitlines() if not line.startswith("REPORT")])
+    """Without ACTUATE: rows of drives.dat are then those of the DRIVEs."""
+    return with_reports([line for line in case.text(5).splitlines() if not line.startswith(("REPORT", "ACTUATE"))])
 
 
 def spans_of_laws(cards):

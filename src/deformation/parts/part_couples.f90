@@ -5,6 +5,7 @@
 !! is then known on the other link. Where ends hold each other in a closed chain, one couple stays
 !! indeterminate.
 module part_couples
+  use border_rows, only: border_unknowns_t
   use drive_rates, only: is_joint
   use elastic_linkages, only: elastic_linkage_t, spring_t
   use inertia_loads, only: load_t
@@ -12,7 +13,6 @@ module part_couples
   use kinds, only: wp
   use linkages, only: cross, drive_of_angle, linkage_t
   use load_cases, only: constant_case
-  use part_displacements, only: border_t
   use part_force_types, only: part_forces_t
   use part_poses, only: part_loads_t
   use pose_types, only: arm_to_pin, pins_of_body
@@ -33,13 +33,13 @@ module part_couples
 contains
 
   !> The couples of a load case.
-  pure subroutine find_part_couples(linkage, elastic, pose, loads, border, forces, case, on_part, &
+  pure subroutine find_part_couples(linkage, elastic, pose, loads, numbers, forces, case, on_part, &
     joints, given, open)
     type(linkage_t), intent(in) :: linkage         !! that moves: its bodies, turns, drives
     type(elastic_linkage_t), intent(in) :: elastic !! at this position
     type(pose_t), intent(in) :: pose               !! of points and parts
     type(part_loads_t), intent(in) :: loads        !! of this position
-    type(border_t), intent(in) :: border           !! numbers of constraints
+    type(border_unknowns_t), intent(in) :: numbers !! of constraints
     type(part_forces_t), intent(in) :: forces      !! of these loads
     integer, intent(in) :: case                    !! number of the load case
     real(wp), intent(in) :: on_part(:, :)          !! (6, parts) forces on both ends of parts that
@@ -93,7 +93,7 @@ contains
       end%body = body
       if (body == 0) return
       if (.not. linkage%bodies(body)%bends) then
-        end%moment = -moment_on_rigid(linkage, elastic, pose, loads, border, forces, case, body, &
+        end%moment = -moment_on_rigid(linkage, elastic, pose, loads, numbers, forces, case, body, &
           joints)
         return
       end if
@@ -209,13 +209,13 @@ contains
   end function moment_on_end
 
   !> Moment on a rigid link about its first pin of everything but the couples of turns.
-  pure function moment_on_rigid(linkage, elastic, pose, loads, border, forces, case, body, joints) &
-    result(moment)
+  pure function moment_on_rigid(linkage, elastic, pose, loads, numbers, forces, case, body, &
+    joints) result(moment)
     type(linkage_t), intent(in) :: linkage
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: pose
     type(part_loads_t), intent(in) :: loads
-    type(border_t), intent(in) :: border
+    type(border_unknowns_t), intent(in) :: numbers
     type(part_forces_t), intent(in) :: forces
     integer, intent(in) :: case, body
     type(joint_forces_t), intent(in) :: joints
@@ -225,12 +225,12 @@ contains
     integer :: pins(2 + size(linkage%bodies(body)%further)), i, part, row
 
     part = findloc(elastic%body, body, dim=1)
-    load = load_on_rigid(elastic, pose, loads, border%numbers, forces, case, part)
+    load = load_on_rigid(elastic, pose, loads, numbers, forces, case, part)
     moment = load%moment + moment_of_springs(elastic, loads, forces, case, body, &
       elastic%rotation(1, part))
     pins = pins_of_body(linkage%bodies(body))
     do i = 2, size(pins)
-      row = border%numbers%body_constraint(part) + 2*(i - 2)
+      row = numbers%body_constraint(part) + 2*(i - 2)
       moment = moment + cross(arm_to_pin(elastic%linkage, pose, part, pins(i)), &
         forces%constraint(row + 1:row + 2, case))
     end do

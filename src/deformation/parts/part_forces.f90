@@ -175,7 +175,8 @@ contains
         if (elastic%rotation(e, k) > 0) then
           work = work + couple(e, k)*chords%rotation(elastic%rotation(e, k), :)
         else if (elastic%rotation(e, k) == 0) then
-          work = work + couple(e, k)*turn_of_end(links(k), chords, k, e)
+          work = work + couple(e, k)*turn_of_end(links(k), chords%turn(:, k), &
+            chords%across(3:, :, k), e)
         end if
       end do
     end do

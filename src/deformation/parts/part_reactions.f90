@@ -6,7 +6,7 @@
 module part_reactions
   use acceleration_fields, only: acceleration_field_t
   use border_loads, only: border_work
-  use border_rows, only: part_rows
+  use border_rows, only: border_unknowns_t, part_rows
   use drive_rates, only: end_at_joint, turn_of_end
   use elastic_linkages, only: elastic_linkage_t
   use inertia_loads, only: load_t
@@ -16,7 +16,6 @@ module part_reactions
   use linkages, only: drive_of_angle, linkage_t, normal_to
   use load_cases, only: load_case_t
   use part_couples, only: find_part_couples
-  use part_displacements, only: border_t
   use part_force_types, only: part_forces_t
   use part_poses, only: part_loads_t
   use pin_displacements, only: chords_t
@@ -32,14 +31,14 @@ contains
 
   !> Puts the forces of a load case in place of those of statics; what drives do is left, for it
   !! follows from the power.
-  pure subroutine take_part_reactions(linkage, elastic, links, pose, loads, border, forces, case, &
+  pure subroutine take_part_reactions(linkage, elastic, links, pose, loads, numbers, forces, case, &
     joints, given, open)
     type(linkage_t), intent(in) :: linkage         !! that moves: its bodies, sliders and turns
     type(elastic_linkage_t), intent(in) :: elastic !! at this position
     type(link_modes_t), intent(in) :: links(:)     !! (parts)
     type(pose_t), intent(in) :: pose               !! of points and parts
     type(part_loads_t), intent(in) :: loads        !! of this position
-    type(border_t), intent(in) :: border           !! numbers of constraints
+    type(border_unknowns_t), intent(in) :: numbers !! of constraints
     type(part_forces_t), intent(in) :: forces      !! of these loads
     integer, intent(in) :: case                    !! number of the load case
     type(joint_forces_t), intent(inout) :: joints  !! of this linkage
@@ -52,14 +51,14 @@ contains
     do k = 1, size(links)
       on_part(:, k) = 0.0_wp
       if (elastic%linkage%bodies(k)%bends) on_part(:, k) = on_ends(elastic, links(k), k, pose, &
-        loads%unit%of_case(case), border, forces%weighted(:, case), torques_of_drives(linkage, &
+        loads%unit%of_case(case), numbers, forces%weighted(:, case), torques_of_drives(linkage, &
         elastic, k, forces%drive(:, case)) + merge(loads%end_couple(:, k, case), 0.0_wp, &
         elastic%rotation(:, k) == 0))
     end do
     further = 0
     do b = 1, size(linkage%bodies)
       do i = 1, 2 + size(linkage%bodies(b)%further)
-        force = force_on_link(linkage, elastic, pose, loads, border, forces, case, on_part, b, i)
+        force = force_on_link(linkage, elastic, pose, loads, numbers, forces, case, on_part, b, i)
         if (i == 1) then
           joints%on_first(:, b) = force
         else if (i == 2) then
@@ -71,19 +70,19 @@ contains
       further = further + size(linkage%bodies(b)%further)
     end do
     if (allocated(joints%guide)) joints%guide = forces%guide(:, case)
-    if (allocated(joints%couple)) call find_part_couples(linkage, elastic, pose, loads, border, &
+    if (allocated(joints%couple)) call find_part_couples(linkage, elastic, pose, loads, numbers, &
       forces, case, on_part, joints, given, open)
   end subroutine take_part_reactions
 
   !> Forces on both ends of a part that bends, and moments: as the displacements of `part_rows`.
-  pure function on_ends(elastic, link, part, pose, case, border, weighted, torque) &
+  pure function on_ends(elastic, link, part, pose, case, numbers, weighted, torque) &
     result(on_part)
     type(elastic_linkage_t), intent(in) :: elastic
     type(link_modes_t), intent(in) :: link
     integer, intent(in) :: part
     type(pose_t), intent(in) :: pose
     type(load_case_t), intent(in) :: case
-    type(border_t), intent(in) :: border
+    type(border_unknowns_t), intent(in) :: numbers
     real(wp), intent(in) :: weighted(:)
     real(wp), intent(in) :: torque(2) !! of drives and loads on its hinged ends [N m]
     real(wp) :: on_part(6)
@@ -96,9 +95,9 @@ contains
     integer :: i
 
     rows = part_rows(link, elastic%linkage%bodies(part)%length, pose%direction(:, part))
-    on_part = rows(:, 1)*weighted(border%numbers%elongation(part))
+    on_part = rows(:, 1)*weighted(numbers%elongation(part))
     do i = 1, link%curves
-      on_part = on_part + rows(:, 1 + i)*weighted(border%numbers%curve(i, part))
+      on_part = on_part + rows(:, 1 + i)*weighted(numbers%curve(i, part))
     end do
     allocate (alone%bodies(1), alone%pin_mass(0))
     alone%bodies(1) = elastic%linkage%bodies(part)
@@ -112,7 +111,8 @@ contains
     chords = own_chords(rows, pose%direction(:, part), elastic%linkage%bodies(part)%length)
     on_part = on_part - border_work(alone, [link], chords, its_pose, its_case)
     do i = 1, 2
-      if (abs(torque(i)) > 0.0_wp) on_part = on_part - torque(i)*turn_of_end(link, chords, 1, i)
+      if (abs(torque(i)) > 0.0_wp) on_part = on_part - torque(i)*turn_of_end(link, &
+        chords%turn(:, 1), chords%across(3:, :, 1), i)
     end do
   end function on_ends
 
@@ -164,13 +164,13 @@ contains
   end function own_chords
 
   !> Force on a link at one of its pins.
-  pure function force_on_link(linkage, elastic, pose, loads, border, forces, case, on_part, body, &
+  pure function force_on_link(linkage, elastic, pose, loads, numbers, forces, case, on_part, body, &
     number) result(force)
     type(linkage_t), intent(in) :: linkage
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: pose
     type(part_loads_t), intent(in) :: loads
-    type(border_t), intent(in) :: border
+    type(border_unknowns_t), intent(in) :: numbers
     type(part_forces_t), intent(in) :: forces
     integer, intent(in) :: case
     real(wp), intent(in) :: on_part(:, :)
@@ -198,14 +198,14 @@ contains
     end if
     k = findloc(elastic%body, body, dim=1)
     if (number > 1) then
-      row = border%numbers%body_constraint(k) + 2*(number - 2)
+      row = numbers%body_constraint(k) + 2*(number - 2)
       force = forces%constraint(row + 1:row + 2, case)
       return
     end if
-    load = load_on_rigid(elastic, pose, loads, border%numbers, forces, case, k)
+    load = load_on_rigid(elastic, pose, loads, numbers, forces, case, k)
     force = -load%force
     do i = 2, size(pins)
-      row = border%numbers%body_constraint(k) + 2*(i - 2)
+      row = numbers%body_constraint(k) + 2*(i - 2)
       force = force - forces%constraint(row + 1:row + 2, case)
     end do
   end function force_on_link

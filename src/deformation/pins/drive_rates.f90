@@ -60,7 +60,7 @@ contains
     if (elastic%rotation(end, part) > 0) then
       turn = chords%rotation(elastic%rotation(end, part), :)
     else if (elastic%linkage%bodies(part)%bends) then
-      turn = turn_of_end(links(part), chords, part, end)
+      turn = turn_of_end(links(part), chords%turn(:, part), chords%across(3:, :, part), end)
     else
       turn = chords%turn(:, part)
     end if
@@ -240,20 +240,20 @@ contains
 
   !> Rotation of a hinged end of a part that bends: that of its chord, and what the curves of the
   !! other end add.
-  pure function turn_of_end(link, chords, part, number) result(turn)
+  pure function turn_of_end(link, chord, curve, number) result(turn)
     type(link_modes_t), intent(in) :: link   !! of the part
-    type(chords_t), intent(in) :: chords     !! what some displacements do to it
-    integer, intent(in) :: part              !! its number in these
+    real(wp), intent(in) :: chord(:)         !! (displacements) what they turn its chord
+    real(wp), intent(in) :: curve(:, :)      !! (curves or more, displacements)
     integer, intent(in) :: number            !! 1: the first end, 2: the last
-    real(wp) :: turn(size(chords%turn, 1))   !! (displacements)
+    real(wp) :: turn(size(chord))            !! (displacements)
 
     real(wp) :: slopes(link%curves + link%modes)
     integer :: i
 
-    turn = chords%turn(:, part)
+    turn = chord
     slopes = end_slopes(link, number)
     do i = 1, link%curves
-      turn = turn + slopes(i)*chords%across(2 + i, :, part)
+      turn = turn + slopes(i)*curve(i, :)
     end do
   end function turn_of_end
 

@@ -1,7 +1,7 @@
 ! src/vibration/mixed/ - frequencies of linkages of many links: cost grows with their number.
 ! In: a linkage in parts, their own modes, a pose. Out: modes with errors, and in `chords_t` what
 ! each mode does to points and parts, so that all else takes them as it takes those of few links.
-! Begin with `new_mixed_form` here, `assemble_mixed` in `mixed_positions.f90`, `modes_of_position`
+! Begin with `new_mixed_form` here, `assemble_rest` in `mixed_positions.f90`, `modes_of_position`
 ! in `position_modes.f90`.
 ! Not here: the factor of the matrices (`src/base/sparse`), their eigenvalues (`src/eigen`).
 

@@ -2,6 +2,7 @@
 module mixed_matrices
   use border_loads, only: add_link_work
   use border_rows, only: add_line, add_rigid, add_spring, add_stretch, line_direction, spring_way
+  use drive_rates, only: turn_of_end
   use elastic_linkages, only: elastic_linkage_t, is_piece, spring_t
   use kinds, only: wp
   use link_modes, only: link_modes_t, rigid
@@ -230,6 +231,11 @@ contains
     n = form%elements%first(element + 1) - form%elements%first(element)
     start = form%elements%value_first(element) - 1
     value(start + 1) = 1.0_wp
+    if (.not. spring%stiffness > 0.0_wp) then
+      ! It holds nothing: its strain and its multiplier are zero, and count as one condition.
+      value(start + n*n) = -1.0_wp
+      return
+    end if
     call add_condition(form, element, form%elements%first(element + 1) - 1, -factor, row, value)
     value(start + n) = factor/(form%unit*sqrt(spring%stiffness))
     value(start + (n - 1)*n + 1) = value(start + n)
@@ -518,7 +524,7 @@ contains
 
   !> Work of a load case on every unknown. It leaves own modes out, which carry no force between
   !! parts.
-  function mixed_work(form, elastic, links, pose, loads, case) result(work)
+  pure function mixed_work(form, elastic, links, pose, loads, case) result(work)
     type(mixed_form_t), intent(in) :: form         !! of the linkage
     type(elastic_linkage_t), intent(in) :: elastic !! at this position
     type(link_modes_t), intent(in) :: links(:)     !! (parts) of these lengths
@@ -532,13 +538,20 @@ contains
     integer :: i, j, k, first
 
     work = 0.0_wp
-    associate (of_case => loads%unit%of_case(case), turning => form%unit/form%numbers%size_of)
+    associate (of_case => loads%unit%of_case(case))
       do k = 1, size(links)
         local = place_locally(form, elastic, links(k), k, pose)
         on_part = 0.0_wp
         associate (m => local%moving)
           call add_link_work(elastic%linkage, links(k), k, local%across(:, :m), &
             local%along(:, :m), local%turn(:m), pose, of_case, on_part(:m))
+          do i = 1, 2
+            if (.not. abs(loads%end_couple(i, k, case)) > 0.0_wp) cycle
+            if (elastic%rotation(i, k) > 0) call add_moment(form, elastic%rotation(i, k), &
+              loads%end_couple(i, k, case), work)
+            if (elastic%rotation(i, k) == 0) on_part(:m) = on_part(:m) + loads%end_couple(i, k, &
+              case)*turn_of_end(links(k), local%turn(:m), local%across(3:, :m), i)
+          end do
         end associate
         first = form%elements%first(k) + local%own + merge(1, 0, links(k)%bends) - 1
         do j = 1, local%moving
@@ -548,41 +561,46 @@ contains
         end do
       end do
       do i = 1, size(elastic%is_fixed)
-        if (form%numbers%point(i) > 0) call add_force(i, of_case%pin_force(:, i) - &
-          elastic%linkage%pin_mass(i)*of_case%field%at_pin(:, i))
+        call add_force(form, i, of_case%pin_force(:, i) - elastic%linkage%pin_mass(i)* &
+          of_case%field%at_pin(:, i), work)
       end do
       do i = 1, elastic%rotations
-        call add_moment(i, loads%moment(i, case))
+        call add_moment(form, i, loads%moment(i, case), work)
       end do
       do i = 1, size(elastic%carried)
-        call add_force(elastic%carried(i)%point, loads%carried(:2, i, case))
-        if (elastic%carried(i)%rotation > 0) call add_moment(elastic%carried(i)%rotation, &
-          loads%carried(3, i, case))
+        call add_force(form, elastic%carried(i)%point, loads%carried(:2, i, case), work)
+        if (elastic%carried(i)%rotation > 0) call add_moment(form, elastic%carried(i)%rotation, &
+          loads%carried(3, i, case), work)
       end do
     end associate
 
-  contains
-
-    !> Adds a force on a point.
-    subroutine add_force(point, force)
-      integer, intent(in) :: point
-      real(wp), intent(in) :: force(2)
-
-      associate (at => form%displacements + form%numbers%point(point))
-        if (form%numbers%point(point) > 0) work(at:at + 1) = work(at:at + 1) + form%unit*force
-      end associate
-    end subroutine add_force
-
-    !> Adds a moment on a rotation.
-    subroutine add_moment(rotation, moment)
-      integer, intent(in) :: rotation
-      real(wp), intent(in) :: moment
-
-      associate (at => form%displacements + form%numbers%rotation(rotation))
-        work(at) = work(at) + form%unit/form%numbers%size_of*moment
-      end associate
-    end subroutine add_moment
-
   end function mixed_work
+
+  !> Adds the work of a force on a point.
+  pure subroutine add_force(form, point, force, work)
+    type(mixed_form_t), intent(in) :: form
+    integer, intent(in) :: point
+    real(wp), intent(in) :: force(2)
+    real(wp), intent(inout) :: work(:)
+
+    integer :: at
+
+    if (form%numbers%point(point) == 0) return
+    at = form%displacements + form%numbers%point(point)
+    work(at:at + 1) = work(at:at + 1) + form%unit*force
+  end subroutine add_force
+
+  !> Adds the work of a moment on a rotation.
+  pure subroutine add_moment(form, rotation, moment, work)
+    type(mixed_form_t), intent(in) :: form
+    integer, intent(in) :: rotation
+    real(wp), intent(in) :: moment
+    real(wp), intent(inout) :: work(:)
+
+    integer :: at
+
+    at = form%displacements + form%numbers%rotation(rotation)
+    work(at) = work(at) + form%unit/form%numbers%size_of*moment
+  end subroutine add_moment
 
 end module mixed_matrices

@@ -22,8 +22,9 @@ module mixed_positions
   implicit none (type, external)
   private
 
-  public :: mixed_position_t, new_mixed_position, assemble_mixed, is_held, find_mixed_modes, &
-    displacements_of, modes_on_border, work_in, largest_work
+  public :: mixed_position_t, new_mixed_position, assemble_rest, is_held, hold, &
+    find_mixed_forces, stiffen, find_mixed_modes, displacements_of, modes_on_border, work_in, &
+    largest_work
 
   !> Allocated once for a model, filled at every position.
   type :: mixed_position_t
@@ -46,60 +47,12 @@ contains
     mixed%pencil%conditions = mixed%form%conditions
   end function new_mixed_position
 
-  !> Matrices and forces at a position.
-  !!
-  !! Errors: a dead point or a change point, where conditions do not hold the linkage, or follow
-  !! from each other.
-  subroutine assemble_mixed(linkage, elastic, links, pose, loads, mixed, forces, error)
-    type(linkage_t), intent(in) :: linkage          !! that moves: its drives
+  !> K and M of a position, without loads.
+  subroutine assemble_rest(elastic, links, pose, mixed)
     type(elastic_linkage_t), intent(in) :: elastic  !! at this position
     type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
     type(pose_t), intent(in) :: pose                !! of points and parts
-    type(part_loads_t), intent(in) :: loads         !! of this position
     type(mixed_position_t), intent(inout) :: mixed  !! of this linkage
-    type(part_forces_t), intent(out) :: forces
-    type(error_t), allocatable, intent(out) :: error
-
-    integer :: i, n
-
-    call assemble_rest(elastic, links, pose, mixed)
-    call make_room(linkage, elastic, loads, mixed%form%numbers, case_count, forces)
-    associate (form => mixed%form, pencil => mixed%pencil)
-      if (.not. any(loads%unit%occurs)) return
-      if (.not. conditions_hold(form%elements, form%plan, pencil)) then
-        call refuse_change_point(pose, error)
-        if (.not. allocated(error)) call set_error(error, error_of_dead_point, &
-          "dead point: the conditions of the linkage depend on each other here")
-        return
-      end if
-      if (.not. allocated(mixed%solution)) allocate (mixed%solution(form%unknowns, case_count))
-      mixed%solution = 0.0_wp
-      do i = 1, case_count
-        if (loads%unit%occurs(i)) mixed%solution(:, i) = mixed_work(form, elastic, links, pose, &
-          loads, i)
-      end do
-      call solve_refined(loads%unit%occurs, mixed)
-      n = form%multipliers + size(form%numbers%rows)
-      do i = 1, case_count
-        if (.not. loads%unit%occurs(i)) cycle
-        mixed%unit_stiffness(:, i) = 0.0_wp
-        ! The unknowns of `displacements_of` these solutions.
-        forces%border(i, i) = 1.0_wp
-        call take_forces(elastic, links, pose, loads, form%numbers, &
-          mixed%solution(form%rows + 1:form%displacements, i), &
-          mixed%solution(n + 1:, i)/form%unit, i, forces)
-        call add_mixed_geometric(form, elastic, links, pose, loads, forces, i, 1.0_wp, &
-          mixed%unit_stiffness(:, i))
-      end do
-    end associate
-  end subroutine assemble_mixed
-
-  !> K and M without loads.
-  subroutine assemble_rest(elastic, links, pose, mixed)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(link_modes_t), intent(in) :: links(:)
-    type(pose_t), intent(in) :: pose
-    type(mixed_position_t), intent(inout) :: mixed
 
     integer :: n
 
@@ -108,10 +61,9 @@ contains
       n = size(form%elements%value_first)
       n = form%elements%value_first(n) - 1
       if (allocated(pencil%mass)) then
-        if (size(pencil%mass) /= n) deallocate (pencil%mass, mixed%at_rest, mixed%unit_stiffness)
+        if (size(pencil%mass) /= n) deallocate (pencil%mass, mixed%at_rest)
       end if
-      if (.not. allocated(pencil%mass)) allocate (pencil%mass(n), mixed%at_rest(n), &
-        mixed%unit_stiffness(n, case_count))
+      if (.not. allocated(pencil%mass)) allocate (pencil%mass(n), mixed%at_rest(n))
       call assemble_mixed_stiffness(form, elastic, links, pose, mixed%at_rest)
       call assemble_mixed_mass(form, elastic, links, pose, pencil%mass)
       pencil%stiffness = mixed%at_rest
@@ -119,37 +71,87 @@ contains
   end subroutine assemble_rest
 
   !> Whether the conditions hold a linkage at a position, each of them independent of the others.
-  logical function is_held(elastic, links, pose, mixed)
-    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
-    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
-    type(pose_t), intent(in) :: pose                !! of points and parts
-    type(mixed_position_t), intent(inout) :: mixed  !! of this linkage
+  !! The factor of K is found for it.
+  logical function is_held(mixed)
+    type(mixed_position_t), intent(inout) :: mixed  !! at rest
 
-    call assemble_rest(elastic, links, pose, mixed)
     is_held = conditions_hold(mixed%form%elements, mixed%form%plan, mixed%pencil)
   end function is_held
 
-  !> Solves `K z = f` in place, with one step of refinement: forces pass from part to part with all
-  !! their digits.
-  pure subroutine solve_refined(occurs, mixed)
-    logical, intent(in) :: occurs(case_count)      !! cases that do
-    type(mixed_position_t), intent(inout) :: mixed !! with the factor of K, and f as its solution
+  !> Finds the factor of K at rest.
+  !!
+  !! Errors: a dead point or a change point, where conditions do not hold the linkage, or follow
+  !! from each other.
+  subroutine hold(pose, mixed, error)
+    type(pose_t), intent(in) :: pose                !! of points and parts
+    type(mixed_position_t), intent(inout) :: mixed  !! at rest
+    type(error_t), allocatable, intent(out) :: error
+
+    if (is_held(mixed)) return
+    call refuse_change_point(pose, error)
+    if (.not. allocated(error)) call set_error(error, error_of_dead_point, &
+      "dead point: the conditions of the linkage depend on each other here")
+  end subroutine hold
+
+  !> The forces of all load cases, and how the linkage yields to them.
+  pure subroutine find_mixed_forces(linkage, elastic, links, pose, loads, mixed, forces, solution)
+    type(linkage_t), intent(in) :: linkage          !! that moves: its drives
+    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
+    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
+    type(pose_t), intent(in) :: pose                !! of points and parts
+    type(part_loads_t), intent(in) :: loads         !! of this position
+    type(mixed_position_t), intent(in) :: mixed     !! with the factor of `hold`
+    type(part_forces_t), intent(out) :: forces
+    real(wp), allocatable, intent(out) :: solution(:, :) !! (unknowns, cases)
 
     real(wp) :: rest(mixed%form%unknowns, 1), product(mixed%form%unknowns)
+    integer :: i, n
+
+    call make_room(linkage, elastic, loads, mixed%form%numbers, case_count, forces)
+    associate (form => mixed%form)
+      allocate (solution(form%unknowns, case_count), source=0.0_wp)
+      n = form%multipliers + size(form%numbers%rows)
+      do i = 1, case_count
+        if (.not. loads%unit%occurs(i)) cycle
+        rest(:, 1) = mixed_work(form, elastic, links, pose, loads, i)
+        solution(:, i:i) = rest
+        call solve(form%plan, mixed%pencil%factor, solution(:, i:i))
+        ! Refined once: forces pass from part to part with all their digits.
+        call times_vector(form%elements, mixed%at_rest, solution(:, i), product)
+        rest(:, 1) = rest(:, 1) - product
+        call solve(form%plan, mixed%pencil%factor, rest)
+        solution(:, i) = solution(:, i) + rest(:, 1)
+        ! The unknowns of `displacements_of` these solutions.
+        forces%border(i, i) = 1.0_wp
+        call take_forces(elastic, links, pose, loads, form%numbers, &
+          solution(form%rows + 1:form%displacements, i), solution(n + 1:, i)/form%unit, i, forces)
+      end do
+    end associate
+  end subroutine find_mixed_forces
+
+  !> K_G of every load case that occurs.
+  subroutine stiffen(elastic, links, pose, loads, forces, mixed)
+    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
+    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
+    type(pose_t), intent(in) :: pose                !! of points and parts
+    type(part_loads_t), intent(in) :: loads         !! of this position
+    type(part_forces_t), intent(in) :: forces       !! of these loads
+    type(mixed_position_t), intent(inout) :: mixed
+
     integer :: i
 
+    if (allocated(mixed%unit_stiffness)) then
+      if (size(mixed%unit_stiffness, 1) /= size(mixed%at_rest)) deallocate (mixed%unit_stiffness)
+    end if
+    if (.not. allocated(mixed%unit_stiffness)) allocate (mixed%unit_stiffness( &
+      size(mixed%at_rest), case_count))
     do i = 1, case_count
-      if (.not. occurs(i)) cycle
-      associate (z => mixed%solution(:, i:i))
-        rest = z
-        call solve(mixed%form%plan, mixed%pencil%factor, z)
-        call times_vector(mixed%form%elements, mixed%at_rest, z(:, 1), product)
-        rest(:, 1) = rest(:, 1) - product
-        call solve(mixed%form%plan, mixed%pencil%factor, rest)
-        z = z + rest
-      end associate
+      if (.not. loads%unit%occurs(i)) cycle
+      mixed%unit_stiffness(:, i) = 0.0_wp
+      call add_mixed_geometric(mixed%form, elastic, links, pose, loads, forces, i, 1.0_wp, &
+        mixed%unit_stiffness(:, i))
     end do
-  end subroutine solve_refined
+  end subroutine stiffen
 
   !> The lowest modes at a speed.
   !!
