@@ -12,7 +12,9 @@ $(build)/programs/%.o: %.f90 $(build)/command $(modules) $(build)/four_bars.o
 
 # from NAME,FOLDER...: the program NAME and the modules of the folders.
 from = $(patsubst %.f90,$(build)/programs/%.o,$(1).f90 $(notdir $(filter-out $(program_mains),$(wildcard $(addsuffix /*.f90,$(2))))))
-$(build)/bench/bench:       $(call from,bench,tests/bench)
+chains = $(addprefix $(build)/,chain_decks.o nodal_chains.o computed_decks.o)
+$(build)/programs/bench_scale.o: $(chains)
+$(build)/bench/bench:       $(call from,bench,tests/bench) $(chains)
 $(build)/stress/responses:  $(call from,stress_responses,tests/stress/responses)
 $(build)/stress/stability:  $(call from,stress_stability,tests/stress/responses)
 $(build)/stress/read_words: $(call from,read_words)

@@ -23,6 +23,9 @@ translated := $(shell for tests in "unit_tests $(test_files)" "must_fail $(suppo
 $(if $(filter-out 0,$(.SHELLSTATUS)),$(error the tests were not translated))
 endif
 
+# It is timed, too.
+$(build)/nodal_chains.o: private fast =
+
 $(build)/funit/funit.o: $(support)/funit.f90 $(build)/command
 	$(compile) $(test_options) -c $< -o $@
 

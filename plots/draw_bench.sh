@@ -33,3 +33,4 @@ draw bench_cost.gp cost_modes cost_modes modes each \
 draw bench_cost.gp cost_threads cost_threads threads per_position \
     'Time of a position against threads (3 modes at 20 rad/s, 1e-8)' 'threads' \
     'including what is done once per run; ARPACK serves one thread at a time'
+draw bench_scale.gp scale scale

@@ -1,10 +1,10 @@
 !> Times the program's solvers and the usual ones, in turn, and writes tables.
 !!
-!!     bench PROGRAM FOLDER LIBRARIES [short|corners|linkages|response]
+!!     bench PROGRAM FOLDER LIBRARIES [short|corners|linkages|response|scale]
 !!
 !! `short`: a few cases once. `corners`: only the decks of tests/bench/corners, those that are slow once or three times.
-!! `linkages`: only linkages in parts, eleven times. `response`: only the elastic response. `memory ACCURACY SPEEDS THREADS`:
-!! prints the memory that one elastic response takes.
+!! `linkages`: only linkages in parts, eleven times. `response`: only the elastic response. `scale`: only chains of many links.
+!! `memory ACCURACY SPEEDS THREADS`: prints the memory that one elastic response takes.
 !! PROGRAM is also timed as a whole; tables go to FOLDER; LIBRARIES names the BLAS that was linked. Run in the root of the repository.
 program bench
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
@@ -16,6 +16,7 @@ program bench
   use bench_ratios, only: write_ratios
   use bench_response, only: plan_responses, prepare_response, print_memory, response_bench_t, time_response, write_responses
   use bench_runs, only: prepare_case, seconds_since, time_case
+  use bench_scale, only: chain_case_t, plan_chains, prepare_chain, time_chain, write_chains
   use bench_tables, only: write_plan, write_times
   use errors, only: error_t, rendered
   use exact_values, only: exact_values_t, read_exact_values
@@ -32,6 +33,7 @@ program bench
   type(plan_t) :: plan
   type(corner_t), allocatable :: corners(:)
   type(linkage_case_t), allocatable :: linkages(:)
+  type(chain_case_t), allocatable :: chains(:)
   type(response_bench_t) :: responses
   type(base_t) :: base
   type(exact_values_t) :: exact
@@ -43,10 +45,12 @@ program bench
   integer :: i, k, order(3), rounds
   real(wp) :: accuracy
   integer :: speeds, threads
-  logical :: short, only_corners, only_linkages, only_response, done
+  character(len=:), allocatable :: part
+  logical :: short, done
 
   words = arguments()
-  if (.not. any(size(words) == [3, 4, 7])) call give_up("usage: bench PROGRAM FOLDER LIBRARIES [short|corners|linkages|response]")
+  if (.not. any(size(words) == [3, 4, 7])) &
+    call give_up("usage: bench PROGRAM FOLDER LIBRARIES [short|corners|linkages|response|scale]")
   if (size(words) == 7) then
     if (words(4)%text /= "memory") call give_up(words(4)%text//": not memory")
     read (words(5)%text, *) accuracy
@@ -58,20 +62,13 @@ program bench
     call give_up_on(error)
     stop, quiet=.true.
   end if
-  short = .false.
-  only_corners = .false.
-  only_linkages = .false.
-  only_response = .false.
-  if (size(words) == 4) then
-    short = words(4)%text == "short"
-    only_corners = words(4)%text == "corners"
-    only_linkages = words(4)%text == "linkages"
-    only_response = words(4)%text == "response"
-    if (.not. (short .or. only_corners .or. only_linkages .or. only_response)) &
-      call give_up(words(4)%text//": not short, corners, linkages or response")
-  end if
+  part = "all"
+  if (size(words) == 4) part = words(4)%text
+  if (.not. any(part == [character(len=8) :: "all", "short", "corners", "linkages", "response", "scale"])) &
+    call give_up(part//": not short, corners, linkages, response or scale")
+  short = part == "short"
   rounds = merge(short_repetitions, repetitions, short)
-  if (only_linkages) rounds = of_linkages
+  if (part == "linkages") rounds = of_linkages
   call make_directories(words(2)%text, done, made)
   if (.not. done) call give_up(words(2)%text//": this folder cannot be created")
   call read_base("inputs/exact.deck", base, error)
@@ -80,7 +77,7 @@ program bench
   call give_up_on(error)
 
   call system_clock(start)
-  if (.not. (only_corners .or. only_linkages .or. only_response)) plan = plan_cases(omp_get_num_procs(), short)
+  if (is_wanted("solvers")) plan = plan_cases(omp_get_num_procs(), short)
   order = 3
   do i = 1, plan%count
     associate (this => plan%cases(i))
@@ -91,7 +88,7 @@ program bench
     end associate
   end do
   allocate (corners(0))
-  if (.not. (only_linkages .or. only_response)) call read_corners(short, corners, error)
+  if (is_wanted("corners")) call read_corners(short, corners, error)
   call give_up_on(error)
   do i = 1, size(corners)
     call prepare_corner(corners(i), error)
@@ -100,26 +97,33 @@ program bench
     flush (output_unit)
   end do
   allocate (linkages(0))
-  if (.not. (only_corners .or. only_response)) call read_linkages(short, linkages, error)
+  if (is_wanted("linkages")) call read_linkages(short, linkages, error)
   call give_up_on(error)
   do i = 1, size(linkages)
     call prepare_linkage(linkages(i), error)
     call give_up_on(error)
   end do
+  allocate (chains(0))
+  if (is_wanted("scale")) call plan_chains(short, chains, error)
+  call give_up_on(error)
+  do i = 1, size(chains)
+    call prepare_chain(chains(i), error)
+    call give_up_on(error)
+  end do
   allocate (responses%cases(0))
-  if (.not. (only_corners .or. only_linkages)) then
+  if (is_wanted("response")) then
     responses = plan_responses(short)
     call get_command_argument(0, executable)
     call prepare_response(base, trim(executable), words(2)%text, responses, error)
     call give_up_on(error)
   end if
-  write (output_unit, "(a)") "bench: "//to_string(plan%count)//" cases and "//to_string(size(corners) + size(linkages))// &
-    " decks solved once, "//to_string(seconds_since(start), 3)//" s"
+  write (output_unit, "(a)") "bench: "//to_string(plan%count)//" cases and "// &
+    to_string(size(corners) + size(linkages) + size(chains))//" decks solved once, "//to_string(seconds_since(start), 3)//" s"
 
   ! In turn: a slow minute of the machine then comes to all.
   jobs = word_list(job_list//long_job_list)
   if (short) jobs = word_list(job_list)
-  if (only_corners .or. only_linkages .or. only_response) jobs = jobs(:0)
+  if (.not. is_wanted("solvers")) jobs = jobs(:0)
   allocate (times(size(jobs), rounds))
   do k = 1, rounds
     do i = 1, plan%count
@@ -136,6 +140,10 @@ program bench
       call time_linkage(linkages(i), error)
       call give_up_on(error)
     end do
+    do i = 1, size(chains)
+      call time_chain(chains(i), error)
+      call give_up_on(error)
+    end do
     do i = 1, size(responses%cases)
       call time_response(base, words(2)%text, i, responses, error)
       call give_up_on(error)
@@ -148,15 +156,15 @@ program bench
   end do
 
   notes = machine_notes(words(3)%text)
-  if (size(linkages) > 0) call write_linkages(words(2)%text, notes, linkages, error)
+  if (is_wanted("linkages")) call write_linkages(words(2)%text, notes, linkages, error)
   call give_up_on(error)
-  if (only_linkages) stop, quiet=.true.
-  if (.not. only_corners) call write_responses(words(2)%text, notes, base, responses, error)
+  if (is_wanted("scale")) call write_chains(words(2)%text, notes, chains, error)
   call give_up_on(error)
-  if (only_response) stop, quiet=.true.
-  call write_corners(words(2)%text, notes, corners, error)
+  if (is_wanted("response")) call write_responses(words(2)%text, notes, base, responses, error)
   call give_up_on(error)
-  if (only_corners) stop, quiet=.true.
+  if (is_wanted("corners")) call write_corners(words(2)%text, notes, corners, error)
+  call give_up_on(error)
+  if (.not. is_wanted("solvers")) stop, quiet=.true.
   do i = 1, size(table_names())
     call write_plan(words(2)%text, i, notes, plan, error)
     call give_up_on(error)
@@ -167,6 +175,13 @@ program bench
   call give_up_on(error)
 
 contains
+
+  !> Whether a part of the tables is timed: all parts are, or this one only.
+  logical function is_wanted(name)
+    character(len=*), intent(in) :: name
+
+    is_wanted = part == "all" .or. part == "short" .or. part == name
+  end function is_wanted
 
   function arguments() result(list)
     type(string_t), allocatable :: list(:)

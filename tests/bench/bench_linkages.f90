@@ -20,7 +20,7 @@ module bench_linkages
   implicit none (type, external)
   private
 
-  public :: linkage_case_t, read_linkages, prepare_linkage, time_linkage, write_linkages
+  public :: linkage_case_t, read_linkages, prepare_linkage, time_linkage, write_linkages, run_model
 
   !> A deck at an accuracy, and what came of it.
   type :: linkage_case_t

@@ -14,7 +14,7 @@ short_run() {
 
 # Rows of as many columns as there are names, without NaN, infinity or stars, none failed.
 complete() {
-  for table in work_precision cost_elements cost_positions cost_modes cost_threads processes ratios response response_parts; do
+  for table in work_precision cost_elements cost_positions cost_modes cost_threads processes ratios response response_parts scale; do
     [ -s "$out/$table.dat" ] || { echo "no $table.dat"; return 1; }
     awk -v table="$table" '
       /^# failed .*no run came below that error/ { next }
@@ -70,9 +70,18 @@ errors_of_responses() {
   between 0 1e-6 "$(awk '$1 == "collocation" { print $15 }' "$table")" collocation
 }
 
+# Chains of many links: estimates below the accuracy, and finite elements whose errors are known.
+errors_of_chains() {
+  table=$out/scale.dat
+  [ "$(awk '$1 ~ /^program/' "$table" | wc -l)" -eq 6 ] || { echo "not three chains at rest and moving"; return 1; }
+  awk '$1 ~ /^program/ && !($10 > 0 && $10 <= 1e-8) { print }' "$table" | grep . && return 1
+  between 2.5e-4 2.6e-4 "$(awk '$1 == "elements_4" && $2 == 4 { print $10 }' "$table")" "4 elements" || return 1
+  between 1.0e-6 1.04e-6 "$(awk '$1 == "elements_16" && $2 == 4 { print $10 }' "$table")" "16 elements"
+}
+
 wrong_use() {
   "$bench" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
-  [ $? -eq 2 ] && says "usage: bench PROGRAM FOLDER LIBRARIES [short|corners|linkages|response]"
+  [ $? -eq 2 ] && says "usage: bench PROGRAM FOLDER LIBRARIES [short|corners|linkages|response|scale]"
 }
 
 check "make bench: a short run" short_run
@@ -80,4 +89,5 @@ check "make bench: all tables are complete" complete
 check "make bench: errors of meshes and orders" errors_of_meshes
 check "make bench: accuracy= is kept" errors_asked_for
 check "make bench: errors of elastic responses" errors_of_responses
+check "make bench: errors of chains of many links" errors_of_chains
 check "make bench: wrong use" wrong_use
