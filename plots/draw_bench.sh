@@ -10,10 +10,11 @@ export LC_ALL
 plots=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd) || exit 1
 CDPATH='' cd -- "$1" || exit 1
 
-# draw SCRIPT TABLE FIGURE ARGUMENT...
+# draw SCRIPT TABLE FIGURE ARGUMENT...: of tables that are there, for a part may have been timed alone
 draw() {
     script=$1 table=$2 figure=$3
     shift 3
+    [ -f "$table.dat" ] || return 0
     gnuplot -c "$plots/$script" "$table.dat" "$figure" "$@" || exit 1
     printf '%s\n' "$figure.png"
 }
