@@ -23,7 +23,7 @@ module element_eigensolver
   implicit none (type, external)
   private
 
-  public :: element_pencil_t, find_element_modes, conditions_hold
+  public :: element_pencil_t, find_element_modes, check_conditions
 
   !> K and M of the same elements.
   type :: element_pencil_t
@@ -113,18 +113,19 @@ contains
 
   !> Whether no condition follows from others, and none is wanting: K is regular, and has as many
   !! negative eigenvalues as there are conditions.
-  logical function conditions_hold(elements, plan, pencil) result(hold)
+  pure subroutine check_conditions(elements, plan, pencil, hold)
     type(elements_t), intent(in) :: elements        !! of K and M
     type(elimination_plan_t), intent(in) :: plan    !! of these
     type(element_pencil_t), intent(inout) :: pencil !! at rest; its factor becomes that of K
+    logical, intent(out) :: hold
 
     call factorize(plan, elements, pencil%stiffness, pencil%factor)
     hold = pencil%factor%least_pivot > least_pivot .and. pencil%factor%negative == &
       pencil%conditions
-  end function conditions_hold
+  end subroutine check_conditions
 
   !> Factorizes `K − μM`.
-  subroutine shift_to(elements, plan, pencil, shift, factorizations)
+  pure subroutine shift_to(elements, plan, pencil, shift, factorizations)
     type(elements_t), intent(in) :: elements
     type(elimination_plan_t), intent(in) :: plan
     type(element_pencil_t), intent(inout) :: pencil
@@ -139,20 +140,21 @@ contains
     factorizations = factorizations + 1
   end subroutine shift_to
 
-  !> Number of modes below a shift.
-  integer function count_below(elements, plan, pencil, shift, factorizations) result(number)
+  !> Counts the modes below a shift.
+  pure subroutine count_below(elements, plan, pencil, shift, number, factorizations)
     type(elements_t), intent(in) :: elements
     type(elimination_plan_t), intent(in) :: plan
     type(element_pencil_t), intent(inout) :: pencil
     real(wp), intent(in) :: shift
+    integer, intent(out) :: number
     integer, intent(inout) :: factorizations
 
     call shift_to(elements, plan, pencil, shift, factorizations)
     number = pencil%factor%negative - pencil%conditions
-  end function count_below
+  end subroutine count_below
 
   !> `(K − μM)⁻¹ x` with the factor at hand.
-  subroutine solve_with(plan, pencil, right_side, solution)
+  pure subroutine solve_with(plan, pencil, right_side, solution)
     type(elimination_plan_t), intent(in) :: plan
     type(element_pencil_t), intent(in) :: pencil
     real(wp), intent(in) :: right_side(:)
@@ -166,8 +168,8 @@ contains
   end subroutine solve_with
 
   !> Improves every mode of a start, sorts them, and checks that they are complete.
-  subroutine improve_all(elements, plan, pencil, wanted, accurate_vectors, distance, start, found, &
-    proven)
+  pure subroutine improve_all(elements, plan, pencil, wanted, accurate_vectors, distance, start, &
+    found, proven)
     type(elements_t), intent(in) :: elements
     type(elimination_plan_t), intent(in) :: plan
     type(element_pencil_t), intent(inout) :: pencil
@@ -243,7 +245,8 @@ contains
   !! `M (v/β − (λ − σ) x)`, and its square in the norm of M⁻¹ is `(1 − (xᵀMv)²)/β²`: divided by the
   !! distance of the next eigenvalue, it bounds the error of λ (Kato and Temple). `found%error`
   !! becomes its ratio to λ².
-  subroutine improve(elements, plan, pencil, accurate_vector, gap_guess, mode, found, converged)
+  pure subroutine improve(elements, plan, pencil, accurate_vector, gap_guess, mode, found, &
+    converged)
     type(elements_t), intent(in) :: elements
     type(elimination_plan_t), intent(in) :: plan
     type(element_pencil_t), intent(inout) :: pencil
@@ -266,7 +269,7 @@ contains
       iterations: do i = 1, most_iterations
         call shift_to(elements, plan, pencil, lambda, found%factorizations)
         do step = 1, 2
-          before = vector
+          if (step == 2) before = vector
           call solve_with(plan, pencil, mass_times, vector)
           call take_off(found, mode, lambda, vector)
           call normalise(elements, pencil, vector, mass_times, scale, sound)
@@ -313,7 +316,7 @@ contains
   end subroutine take_off
 
   !> Gives a vector unit mass.
-  subroutine normalise(elements, pencil, vector, mass_times, scale, sound)
+  pure subroutine normalise(elements, pencil, vector, mass_times, scale, sound)
     type(elements_t), intent(in) :: elements
     type(element_pencil_t), intent(in) :: pencil
     real(wp), intent(inout) :: vector(:)
@@ -339,7 +342,7 @@ contains
   end subroutine normalise
 
   !> Proves that the modes are complete up to the last requested one, and bounds their errors.
-  subroutine check(elements, plan, pencil, wanted, distance, found, proven)
+  pure subroutine check(elements, plan, pencil, wanted, distance, found, proven)
     type(elements_t), intent(in) :: elements
     type(elimination_plan_t), intent(in) :: plan
     type(element_pencil_t), intent(inout) :: pencil
@@ -350,7 +353,7 @@ contains
 
     real(wp), dimension(elements%unknowns) :: products, mass_products
     real(wp) :: limit, reach, gap
-    integer :: i, below
+    integer :: i, below, counted
 
     proven = .false.
     do i = 1, size(margins)
@@ -358,7 +361,8 @@ contains
       if (i > 1 .and. margins(i) < distance) exit
       limit = found%lambda(wanted) + reach*abs(found%lambda(wanted))
       below = count(found%lambda < limit)
-      proven = count_below(elements, plan, pencil, limit, found%factorizations) == below
+      call count_below(elements, plan, pencil, limit, counted, found%factorizations)
+      proven = counted == below
       if (proven) exit
     end do
     if (.not. proven) return
@@ -394,7 +398,7 @@ contains
       inverse(:), last(:), next(:)
     type(error_t), allocatable :: error
     real(wp) :: shift, scale, seed
-    integer :: i, j, n, from, to, chosen
+    integer :: i, j, n, from, to, chosen, enough
     logical :: sound
 
     call find_definite_shift(elements, plan, pencil, shift, factorizations)
@@ -413,6 +417,7 @@ contains
       call add_vector()
     end do
     from = 1
+    enough = wanted
     start%modes = 0
     allocate (products(most_vectors, most_vectors), source=0.0_wp)
     do
@@ -427,6 +432,9 @@ contains
         if (n + 1 < most_vectors) call add_vector()
       end do
       from = to + 1
+      if (to < enough .and. from <= n .and. n + block < most_vectors) cycle
+      ! The eigenproblem of all vectors is solved again once there are a fifth more.
+      enough = to + to/5
       chosen = min(wanted, to)
       call largest_of(products(:to, :to), chosen, inverse, vectors, error)
       if (allocated(error)) exit
@@ -466,21 +474,23 @@ contains
   end subroutine search
 
   !> A shift below all modes: zero, or below eigenvalues that loads have made negative.
-  subroutine find_definite_shift(elements, plan, pencil, shift, factorizations)
+  pure subroutine find_definite_shift(elements, plan, pencil, shift, factorizations)
     type(elements_t), intent(in) :: elements
     type(elimination_plan_t), intent(in) :: plan
     type(element_pencil_t), intent(inout) :: pencil
     real(wp), intent(out) :: shift
     integer, intent(inout) :: factorizations
 
-    integer :: i
+    integer :: i, below
 
     shift = 0.0_wp
-    if (count_below(elements, plan, pencil, shift, factorizations) == 0) return
+    call count_below(elements, plan, pencil, shift, below, factorizations)
+    if (below == 0) return
     ! Quotients of the diagonals are about the size of eigenvalues.
     shift = -maxval(abs(pencil%stiffness))/maxval(pencil%mass)
     do i = 1, 60
-      if (count_below(elements, plan, pencil, shift, factorizations) == 0) return
+      call count_below(elements, plan, pencil, shift, below, factorizations)
+      if (below == 0) return
       shift = 4.0_wp*shift
     end do
   end subroutine find_definite_shift

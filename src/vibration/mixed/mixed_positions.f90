@@ -3,7 +3,7 @@ module mixed_positions
   use bordered_eigensolver, only: bordered_modes_t, start_t
   use bordered_matrix, only: layout_t, new_bordered_layout
   use elastic_linkages, only: elastic_linkage_t
-  use element_eigensolver, only: conditions_hold, element_pencil_t, find_element_modes
+  use element_eigensolver, only: check_conditions, element_pencil_t, find_element_modes
   use element_matrices, only: absolute_times_vector, times_vector
   use errors, only: error_of_dead_point, error_t, set_error
   use indefinite_factor, only: solve
@@ -22,8 +22,8 @@ module mixed_positions
   implicit none (type, external)
   private
 
-  public :: mixed_position_t, new_mixed_position, assemble_rest, is_held, hold, &
-    find_mixed_forces, stiffen, find_mixed_modes, displacements_of, modes_on_border, work_in, &
+  public :: mixed_position_t, new_mixed_position, assemble_rest, try_to_hold, hold, &
+    find_mixed_forces, stiffen, find_mixed_modes, displacements_of, modes_on_border, find_work, &
     largest_work
 
   !> Allocated once for a model, filled at every position.
@@ -70,24 +70,28 @@ contains
     end associate
   end subroutine assemble_rest
 
-  !> Whether the conditions hold a linkage at a position, each of them independent of the others.
-  !! The factor of K is found for it.
-  logical function is_held(mixed)
+  !> Finds the factor of K at rest, and whether the conditions hold the linkage, each of them
+  !! independent of the others.
+  pure subroutine try_to_hold(mixed, held)
     type(mixed_position_t), intent(inout) :: mixed  !! at rest
+    logical, intent(out) :: held
 
-    is_held = conditions_hold(mixed%form%elements, mixed%form%plan, mixed%pencil)
-  end function is_held
+    call check_conditions(mixed%form%elements, mixed%form%plan, mixed%pencil, held)
+  end subroutine try_to_hold
 
   !> Finds the factor of K at rest.
   !!
   !! Errors: a dead point or a change point, where conditions do not hold the linkage, or follow
   !! from each other.
-  subroutine hold(pose, mixed, error)
+  pure subroutine hold(pose, mixed, error)
     type(pose_t), intent(in) :: pose                !! of points and parts
     type(mixed_position_t), intent(inout) :: mixed  !! at rest
     type(error_t), allocatable, intent(out) :: error
 
-    if (is_held(mixed)) return
+    logical :: held
+
+    call try_to_hold(mixed, held)
+    if (held) return
     call refuse_change_point(pose, error)
     if (.not. allocated(error)) call set_error(error, error_of_dead_point, &
       "dead point: the conditions of the linkage depend on each other here")
@@ -263,18 +267,18 @@ contains
 
   !> `zᵀ(K − λM) z` of the lowest modes, K at a speed [1/s²]: what a change of the matrices changes
   !! of it, multipliers and all, it changes of the eigenvalue to first order.
-  function work_in(mixed, factor, modes, number) result(work)
-    type(mixed_position_t), intent(inout) :: mixed !! at a position near that of the modes
+  pure subroutine find_work(mixed, factor, modes, work)
+    type(mixed_position_t), intent(inout) :: mixed !! at a position near that of the modes; its K
+                                                   !! becomes that of this speed
     real(wp), intent(in) :: factor(case_count)     !! of the unit loads
     type(bordered_modes_t), intent(in) :: modes    !! in the unknowns of the form
-    integer, intent(in) :: number                  !! of modes
-    real(wp) :: work(number)
+    real(wp), intent(out) :: work(:)               !! (modes)
 
     real(wp) :: product(mixed%form%unknowns)
     integer :: i
 
     call set_stiffness(mixed, factor)
-    do i = 1, number
+    do i = 1, size(work)
       associate (z => modes%vector(:, i))
         call times_vector(mixed%form%elements, mixed%pencil%stiffness, z, product)
         work(i) = dot_product(z, product)
@@ -282,7 +286,7 @@ contains
         work(i) = work(i) - modes%lambda(i)*dot_product(z, product)
       end associate
     end do
-  end function work_in
+  end subroutine find_work
 
   !> Bound of what blocks on guides, springs under tension and loads of cuts do in modes of unit
   !! mass, whatever cancels, twice [1/s²].

@@ -14,9 +14,9 @@ module pose_rounding
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use ledger, only: ledger_t
-  use mixed_positions, only: work_in
   use linkages, only: group_by_newton, group_dyad, linkage_t, path_t
   use load_cases, only: case_count
+  use mixed_positions, only: find_work
   use poses, only: pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
   use position_equations, only: new_position_equations, position_equations_t, set_speed
@@ -144,7 +144,7 @@ contains
     here = new_assembled(structure, model)
     call assemble_lengths(structure, model, state%crank, factor, here, equations, reached, counts)
     own_work = 0.0_wp
-    if (reached) call find_work(own_work)
+    if (reached) call take_work(own_work)
     if (allocated(state%pose%coefficients)) then
       other = structure
       call thin_path(other%linkage%path, state%crank)
@@ -186,20 +186,20 @@ contains
       call assemble_lengths(other, model, state%crank, factor, here, equations, reached, counts)
       change = 0.0_wp
       if (.not. reached) return
-      call find_work(change)
+      call take_work(change)
       change = near_multiple*abs(change - own_work)/max(abs(found%lambda(:size(far))), tiny(1.0_wp))
     end subroutine change_to
 
     !> What the matrices at hand do in the modes.
-    subroutine find_work(work)
+    subroutine take_work(work)
       real(wp), intent(out) :: work(:)
 
       if (present(mixed_modes)) then
-        work = work_in(here%mixed, factor, mixed_modes, size(work))
+        call find_work(here%mixed, factor, mixed_modes, work)
       else
         work = residual_work(equations%pencil, found, size(work))
       end if
-    end subroutine find_work
+    end subroutine take_work
 
   end subroutine find_changes
 
