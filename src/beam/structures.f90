@@ -29,8 +29,8 @@ module structures
   end type structure_t
 
   !> Number of parts from which the mixed form is faster than a border, and of binary links from
-  !! which it is faster than their closed forms.
-  integer, parameter :: many_parts = 16, many_links = 40
+  !! which it is faster than their closed forms, for few modes. So many modes cost it as much again.
+  integer, parameter :: many_parts = 16, many_links = 40, many_modes = 30
 
 contains
 
@@ -84,8 +84,9 @@ contains
   end subroutine find_structure_pose
 
   !> The structure whose frequencies are found: of many binary links, too, each is a part.
-  pure function in_parts(structure) result(divided)
+  pure function in_parts(structure, modes) result(divided)
     class(structure_t), intent(in) :: structure !! with beams
+    integer, intent(in) :: modes                !! wanted
     type(structure_t) :: divided
 
     divided%linkage = structure%linkage
@@ -94,25 +95,34 @@ contains
     divided%load_elements = structure%load_elements
     if (allocated(structure%elastic)) then
       divided%elastic = structure%elastic
-    else if (size(structure%beams) >= many_links) then
+    else if (are_many(size(structure%beams), many_links, modes)) then
       divided%elastic = new_elastic_linkage(structure%linkage, structure%beams)
     end if
   end function in_parts
 
   !> Whether the equations of a linkage are solved in mixed form: it has so many parts that the cube
   !! of their number counts, no motion is free, and no damper acts.
-  pure function has_many_parts(structure) result(has)
+  pure function has_many_parts(structure, modes) result(has)
     class(structure_t), intent(in) :: structure !! with or without parts
+    integer, intent(in) :: modes                !! wanted; 0: statics
     logical :: has
 
     has = allocated(structure%elastic)
     if (.not. has) return
     associate (parts => structure%elastic%linkage)
-      has = size(parts%bodies) >= many_parts .and. .not. any(parts%drives%is_free) .and. &
+      has = are_many(size(parts%bodies), many_parts, modes) .and. &
+        .not. any(parts%drives%is_free) .and. &
         size(structure%elastic%dampers) == 0 .and. .not. any(parts%bodies%bends .and. &
         parts%bodies%line_density <= 0.0_wp)
     end associate
   end function has_many_parts
+
+  !> Whether parts are enough for the mixed form.
+  pure logical function are_many(parts, least, modes)
+    integer, intent(in) :: parts, least, modes
+
+    are_many = parts*many_modes >= least*(many_modes + modes)
+  end function are_many
 
   !> Number of dampers between parts.
   pure function damper_count(structure) result(number)

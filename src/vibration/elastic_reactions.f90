@@ -110,7 +110,7 @@ contains
       parts), spread(least_order, 1, parts), spread(.false., 1, parts), model, error, &
       held=structure%elastic%held)
     if (allocated(error)) return
-    if (present(crank)) call choose_form(structure, crank, model)
+    if (present(crank)) call choose_form(structure, 0, crank, model)
   end subroutine new_elastic_model
 
   !> Springs become loads. Where the masses of a part sit on the nodes of its elements, their forces

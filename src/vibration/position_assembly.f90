@@ -68,8 +68,9 @@ contains
 
   !> Chooses the form of the equations of a model: mixed where there are many parts, and conditions
   !! that are independent of each other hold them at one of some positions; else with a border.
-  subroutine choose_form(structure, crank, model)
+  subroutine choose_form(structure, modes, crank, model)
     class(structure_t), intent(in) :: structure         !! of parts
+    integer, intent(in) :: modes                       !! wanted; 0: statics
     real(wp), intent(in) :: crank(:)                   !! of the first drive [deg] or [m]
     type(deformation_model_t), intent(inout) :: model  !! whose layout has no border yet
 
@@ -79,7 +80,7 @@ contains
     integer :: i
     logical :: held
 
-    model%mixed = has_many_parts(structure)
+    model%mixed = has_many_parts(structure, modes)
     if (model%mixed) then
       here = new_assembled(structure, model)
       do i = 1, size(crank)
@@ -218,6 +219,8 @@ contains
     type(assembled_t), intent(inout) :: here         !! of this model, with the loads of this pose
     type(error_t), allocatable, intent(out) :: error
 
+    real(wp), allocatable :: solution(:, :)
+
     call place_parts(structure, model, pose, here, error)
     if (allocated(error)) return
     call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
@@ -227,7 +230,8 @@ contains
       if (any(here%loads%occurs) .or. .not. with_stiffness) call hold(here%pose, mixed, error)
       if (allocated(error)) return
       call find_mixed_forces(structure%linkage, elastic, links, here%pose, here%part_loads, mixed, &
-        here%part_forces, mixed%solution)
+        here%part_forces, solution)
+      call move_alloc(solution, mixed%solution)
       if (with_stiffness) call stiffen(elastic, links, here%pose, here%part_loads, &
         here%part_forces, mixed)
     end associate

@@ -24,7 +24,7 @@ module position_solver
   use pose_rounding, only: pose_error
   use poses, only: pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
-  use position_modes, only: modes_of_position, yields_of_position
+  use position_modes, only: modes_of_position, prints_of_position, yields_of_position
   use position_results, only: frequency_error, largest_error, position_result_t, position_work_t
   use positions, only: state_t
   use reduced_deflections, only: reduced_deflection
@@ -152,6 +152,8 @@ contains
         call modes_of_position(work%here, found(k), work%continuum%equations, modes)
         call finish_speed(structure, linkage, work%here%model, pose, state, request, factor(:, k), &
           k, want_shapes(k), modes, work, result, found(k))
+        if (request%follow) call prints_of_position(work%here, found(k), request%modes, &
+          result%prints(k))
       else if (damper_count(structure) > 0) then
         call solve_damped_speed(structure, model, state, request, factor(:, k), k, found(k), work, &
           result)
@@ -226,7 +228,8 @@ contains
     type(position_result_t), intent(inout) :: result
 
     associate (chords => work%continuum%equations%chords)
-      if (request%follow) result%prints(k) = prints_of(model, chords, found, request%modes)
+      if (request%follow .and. .not. model%mixed) result%prints(k) = prints_of(model, chords, &
+        found, request%modes)
       if (.not. want_shapes .or. request%method /= by_orders) return
       call sample_reduced(linkage, model, chords, pose, found, request, result%shapes(k), &
         structure%elastic)

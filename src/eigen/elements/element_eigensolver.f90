@@ -48,7 +48,10 @@ module element_eigensolver
   !! proves; the least as of `completeness_proof`.
   real(wp), parameter :: margins(3) = [1.0e-3_wp, 1.0e-5_wp, 1.0e-8_wp]
 
-  !> Vectors of a block of a search without a start: at first, and at most; largest number of all
+  !> Searches for what is missing.
+  integer, parameter :: most_attempts = 100
+
+  !> Vectors of a block of a search: at first, and at most; largest number of all
   !! of them; relative change of eigenvalues from block to block at which it ends.
   integer, parameter :: first_block = 2, most_block = 16, most_vectors = 400
   real(wp), parameter :: start_accuracy = 1.0e-7_wp
@@ -56,13 +59,14 @@ module element_eigensolver
   !> A pivot below is rounding, where the largest are about 1: conditions depend on each other.
   real(wp), parameter :: least_pivot = 64.0_wp*epsilon(1.0_wp)
 
-  !> Modes beyond those wanted in a search without a start.
+  !> Modes beyond those missing in a search.
   integer, parameter :: guards = 2
 
 contains
 
-  !> Finds the lowest modes from a start; without one, or if its modes are not proven to be
-  !! complete, from a search in all unknowns.
+  !> Finds the lowest modes from a start. What is missing then, all without one, or what the count
+  !! has told, is searched for in the space without the modes found, again and again: of equal or
+  !! nearly equal eigenvalues a search finds a few each time.
   !!
   !! Every mode is improved by inverse iteration at its Rayleigh quotient until the error of its
   !! eigenvalue is below rounding. Modes within the clearance above the last one wanted are found,
@@ -81,7 +85,7 @@ contains
                                                      !! within which modes are found, too
 
     type(start_t) :: blind
-    integer :: block, more
+    integer :: attempt, before, block, missing
     logical :: proven
 
     found%factorizations = 0
@@ -90,22 +94,26 @@ contains
     found%zeros = 0
     found%rest = 0.0_wp
     proven = .false.
-    if (start%modes >= wanted) call improve_all(elements, plan, pencil, wanted, accurate_vectors, &
-      clearance, start, found, proven)
+    call make_room(found, elements%unknowns, 0)
+    if (start%modes >= wanted) call add_modes(elements, plan, pencil, accurate_vectors, start, &
+      .true., found)
     block = first_block
-    more = guards
-    do while (.not. proven .and. block <= most_block)
-      call search(elements, plan, pencil, wanted + more, block, blind, found%factorizations)
+    do attempt = 1, most_attempts
+      missing = wanted - size(found%lambda)
+      if (missing <= 0) call check(elements, plan, pencil, wanted, clearance, found, proven, &
+        missing)
+      if (proven) return
+      if (missing == 0 .or. block > most_block) exit
+      block = max(block, min(missing, most_block))
+      before = size(found%lambda)
+      call search(elements, plan, pencil, found, missing + guards, block, blind)
       found%full_solutions = found%full_solutions + 1
-      if (blind%modes >= wanted) call improve_all(elements, plan, pencil, wanted, &
-        accurate_vectors, clearance, blind, found, proven)
-      block = 2*block
-      more = 2*more
+      call add_modes(elements, plan, pencil, accurate_vectors, blind, .false., found)
+      if (size(found%lambda) == before) block = 2*block
     end do
-    if (proven) return
-    if (blind%modes < wanted) then
+    if (size(found%lambda) < wanted) then
       call set_error(error, error_of_numerics, to_string(wanted)// &
-        " modes are asked for, and only "//to_string(blind%modes)//" were found")
+        " modes are asked for, and only "//to_string(size(found%lambda))//" were found")
     else
       call set_error(error, error_of_numerics, "it could not be proven that no mode is missing")
     end if
@@ -167,38 +175,46 @@ contains
     solution = column(:, 1)
   end subroutine solve_with
 
-  !> Improves every mode of a start, sorts them, and checks that they are complete.
-  pure subroutine improve_all(elements, plan, pencil, wanted, accurate_vectors, distance, start, &
-    found, proven)
+  !> Improves every mode of a start, adds those that are new, and sorts all.
+  pure subroutine add_modes(elements, plan, pencil, accurate_vectors, start, is_known, found)
     type(elements_t), intent(in) :: elements
     type(elimination_plan_t), intent(in) :: plan
     type(element_pencil_t), intent(inout) :: pencil
-    integer, intent(in) :: wanted
     logical, intent(in) :: accurate_vectors
-    real(wp), intent(in) :: distance
     type(start_t), intent(in) :: start
+    logical, intent(in) :: is_known !! its modes are those of `origin`
     type(bordered_modes_t), intent(inout) :: found
-    logical, intent(out) :: proven
 
+    type(bordered_modes_t) :: more
     integer :: i, number
     logical :: converged
 
-    proven = .false.
-    call make_room(found, elements%unknowns, start%modes)
-    number = 0
+    number = size(found%lambda)
+    call make_room(more, elements%unknowns, number + start%modes)
+    more%lambda(:number) = found%lambda
+    more%error(:number) = found%error
+    more%origin(:number) = found%origin
+    more%vector(:, :number) = found%vector
+    more%mass_times(:, :number) = found%mass_times
+    more%factorizations = found%factorizations
     do i = 1, start%modes
-      found%lambda(number + 1) = start%lambda(i)
-      found%mass_times(:, number + 1) = start%direction(:, i)
+      more%lambda(number + 1) = start%lambda(i)
+      more%mass_times(:, number + 1) = start%direction(:, i)
       call improve(elements, plan, pencil, accurate_vectors, relative_gap(start%lambda, i), &
-        number + 1, found, converged)
+        number + 1, more, converged)
       if (.not. converged) cycle
-      if (overlaps(found%vector(:, number + 1), found%mass_times(:, :number))) cycle
+      if (overlaps(more%vector(:, number + 1), more%mass_times(:, :number))) cycle
       number = number + 1
-      found%origin(number) = i
+      more%origin(number) = merge(i, 0, is_known)
     end do
-    call choose_modes(found, ascending_order(found%lambda(:number)))
-    if (number >= wanted) call check(elements, plan, pencil, wanted, distance, found, proven)
-  end subroutine improve_all
+    call choose_modes(more, ascending_order(more%lambda(:number)))
+    found%factorizations = more%factorizations
+    call move_alloc(more%lambda, found%lambda)
+    call move_alloc(more%error, found%error)
+    call move_alloc(more%origin, found%origin)
+    call move_alloc(more%vector, found%vector)
+    call move_alloc(more%mass_times, found%mass_times)
+  end subroutine add_modes
 
   !> Allocates arrays for this many modes; previous contents are lost.
   pure subroutine make_room(found, unknowns, modes)
@@ -342,7 +358,7 @@ contains
   end subroutine normalise
 
   !> Proves that the modes are complete up to the last requested one, and bounds their errors.
-  pure subroutine check(elements, plan, pencil, wanted, distance, found, proven)
+  pure subroutine check(elements, plan, pencil, wanted, distance, found, proven, missing)
     type(elements_t), intent(in) :: elements
     type(elimination_plan_t), intent(in) :: plan
     type(element_pencil_t), intent(inout) :: pencil
@@ -350,6 +366,8 @@ contains
     real(wp), intent(in) :: distance !! relative, above the last requested mode, to be cleared
     type(bordered_modes_t), intent(inout) :: found
     logical, intent(out) :: proven
+    integer, intent(out) :: missing  !! modes that the count tells of and that are not found; 0: the
+                                     !! count cannot be trusted
 
     real(wp), dimension(elements%unknowns) :: products, mass_products
     real(wp) :: limit, reach, gap
@@ -362,9 +380,11 @@ contains
       limit = found%lambda(wanted) + reach*abs(found%lambda(wanted))
       below = count(found%lambda < limit)
       call count_below(elements, plan, pencil, limit, counted, found%factorizations)
-      proven = counted == below
+      proven = counted == below .and. pencil%factor%moved == 0
       if (proven) exit
     end do
+    missing = 0
+    if (pencil%factor%moved == 0) missing = max(0, counted - below)
     if (.not. proven) return
     found%clear = reach
     do i = 1, below
@@ -385,14 +405,14 @@ contains
 
   !> Approximate lowest modes, by a Krylov space of blocks from vectors that contain everything: all
   !! eigenvalues 1/(λ − σ) of `(K − σM)⁻¹ M` with σ below all modes.
-  subroutine search(elements, plan, pencil, wanted, block, start, factorizations)
+  subroutine search(elements, plan, pencil, found, wanted, block, start)
     type(elements_t), intent(in) :: elements
     type(elimination_plan_t), intent(in) :: plan
     type(element_pencil_t), intent(inout) :: pencil
+    type(bordered_modes_t), intent(inout) :: found !! modes to be left out; factors are counted
     integer, intent(in) :: wanted !! modes
     integer, intent(in) :: block  !! vectors of a block
     type(start_t), intent(out) :: start !! perhaps fewer of them
-    integer, intent(inout) :: factorizations
 
     real(wp), allocatable :: basis(:, :), mass_times(:, :), products(:, :), vectors(:, :), &
       inverse(:), last(:), next(:)
@@ -401,7 +421,10 @@ contains
     integer :: i, j, n, from, to, chosen, enough
     logical :: sound
 
-    call find_definite_shift(elements, plan, pencil, shift, factorizations)
+    start%modes = 0
+    allocate (start%lambda(0), start%direction(elements%unknowns, 0))
+    call find_definite_shift(elements, plan, pencil, shift, found%factorizations, sound)
+    if (.not. sound) return
     allocate (basis(elements%unknowns, most_vectors), mass_times(elements%unknowns, most_vectors), &
       next(elements%unknowns), last(0))
     n = 0
@@ -418,7 +441,6 @@ contains
     end do
     from = 1
     enough = wanted
-    start%modes = 0
     allocate (products(most_vectors, most_vectors), source=0.0_wp)
     do
       to = n
@@ -437,17 +459,17 @@ contains
       enough = to + to/5
       chosen = min(wanted, to)
       call largest_of(products(:to, :to), chosen, inverse, vectors, error)
+      ! What was found before is good enough to go on with.
       if (allocated(error)) exit
+      start%modes = count(inverse > 0.0_wp)
+      start%lambda = shift + 1.0_wp/inverse(:start%modes)
+      start%direction = matmul(mass_times(:, :to), vectors(:, :start%modes))
       if (size(last) == size(inverse) .and. chosen == wanted) then
         if (all(abs(inverse - last) <= start_accuracy*abs(inverse))) exit
       end if
       last = inverse
       if (n + block >= most_vectors) exit
     end do
-    if (allocated(error) .or. .not. allocated(inverse)) return
-    start%modes = count(inverse > 0.0_wp)
-    start%lambda = shift + 1.0_wp/inverse(:start%modes)
-    start%direction = matmul(mass_times(:, :to), vectors(:, :start%modes))
 
   contains
 
@@ -458,6 +480,9 @@ contains
       call normalise(elements, pencil, next, mass_times(:, n + 1), scale, sound)
       if (.not. sound) return
       do pass = 1, 2
+        do k = 1, size(found%lambda)
+          next = next - dot_product(found%mass_times(:, k), next)*found%vector(:, k)
+        end do
         do k = 1, n
           next = next - dot_product(mass_times(:, k), next)*basis(:, k)
         end do
@@ -474,23 +499,26 @@ contains
   end subroutine search
 
   !> A shift below all modes: zero, or below eigenvalues that loads have made negative.
-  pure subroutine find_definite_shift(elements, plan, pencil, shift, factorizations)
+  pure subroutine find_definite_shift(elements, plan, pencil, shift, factorizations, is_definite)
     type(elements_t), intent(in) :: elements
     type(elimination_plan_t), intent(in) :: plan
     type(element_pencil_t), intent(inout) :: pencil
     real(wp), intent(out) :: shift
     integer, intent(inout) :: factorizations
+    logical, intent(out) :: is_definite !! false: none was found
 
     integer :: i, below
 
     shift = 0.0_wp
     call count_below(elements, plan, pencil, shift, below, factorizations)
-    if (below == 0) return
+    is_definite = below == 0
+    if (is_definite) return
     ! Quotients of the diagonals are about the size of eigenvalues.
     shift = -maxval(abs(pencil%stiffness))/maxval(pencil%mass)
     do i = 1, 60
       call count_below(elements, plan, pencil, shift, below, factorizations)
-      if (below == 0) return
+      is_definite = below == 0
+      if (is_definite) return
       shift = 4.0_wp*shift
     end do
   end subroutine find_definite_shift

@@ -146,7 +146,7 @@ contains
       call begin_sweep(request, drawn_states(model, positions, request%speed), &
         size(positions%states), run%results%found%sweep)
       if (request%method == by_orders) then
-        run%results%found%sweep%structure = in_parts(run%results%mechanism)
+        run%results%found%sweep%structure = in_parts(run%results%mechanism, request%modes)
       else
         run%results%found%sweep%structure = run%results%mechanism%structure_t
       end if

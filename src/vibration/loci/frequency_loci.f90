@@ -17,7 +17,7 @@ module frequency_loci
   use mode_prints, only: prints_of
   use poses, only: pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
-  use position_modes, only: modes_of_position
+  use position_modes, only: prints_of_position
   use position_results, only: frequency_of
   use positions, only: positions_t
   use sorting, only: ascending_order
@@ -251,7 +251,7 @@ contains
     type(assembled_t) :: here
     type(error_t), allocatable :: error
     type(mode_request_t) :: here_requested
-    type(bordered_modes_t) :: modes(1), on_border
+    type(bordered_modes_t) :: modes(1)
     type(outcome_t) :: outcome(1)
     real(wp) :: factor(case_count, 1)
 
@@ -274,8 +274,7 @@ contains
     found = .not. allocated(outcome(1)%error)
     if (.not. found) return
     if (allocated(here%mixed)) then
-      call modes_of_position(here, modes(1), work%equations, on_border)
-      prints = prints_of(here%model, work%equations%chords, on_border, request%modes)
+      call prints_of_position(here, modes(1), request%modes, prints)
     else
       prints = prints_of(models%continuum, work%equations%chords, modes(1), request%modes)
     end if

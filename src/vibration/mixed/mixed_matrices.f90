@@ -105,23 +105,27 @@ contains
 
     real(wp) :: row(form%numbers%unknowns)
     real(wp), allocatable :: rows(:, :)
-    integer :: i, k
+    integer :: i, k, n
 
     value = 0.0_wp
     row = 0.0_wp
+    n = 0
+    do k = 1, size(links)
+      n = max(n, 2*(1 + size(elastic%linkage%bodies(k)%further)))
+    end do
+    allocate (rows(size(row), n), source=0.0_wp)
     do k = 1, size(links)
       if (links(k)%bends) then
         call add_part_conditions(form, links(k), place_locally(form, elastic, links(k), k, pose), &
           k, value)
       else
-        allocate (rows(form%numbers%unknowns, 2*(1 + size(elastic%linkage%bodies(k)%further))), &
-          source=0.0_wp)
-        call add_rigid(elastic, form%numbers, pose, k, rows)
-        do i = 1, size(rows, 2)
-          call add_condition(form, k, form%elements%first(k + 1) - size(rows, 2) + i - 1, 1.0_wp, &
-            rows(:, i), value)
+        n = 2*(1 + size(elastic%linkage%bodies(k)%further))
+        call add_rigid(elastic, form%numbers, pose, k, rows(:, :n))
+        do i = 1, n
+          call add_condition(form, k, form%elements%first(k + 1) - n + i - 1, 1.0_wp, rows(:, i), &
+            value)
+          call clear(form, k, rows(:, i))
         end do
-        deallocate (rows)
       end if
     end do
     do i = 1, size(elastic%springs)

@@ -6,7 +6,7 @@ module mixed_positions
   use element_eigensolver, only: check_conditions, element_pencil_t, find_element_modes
   use element_matrices, only: absolute_times_vector, times_vector
   use errors, only: error_of_dead_point, error_t, set_error
-  use indefinite_factor, only: solve
+  use indefinite_factor, only: factorize, solve
   use kinds, only: wp
   use link_modes, only: link_modes_t
   use linkages, only: linkage_t
@@ -14,6 +14,7 @@ module mixed_positions
   use mixed_form, only: mixed_form_t, new_mixed_form, place_elements
   use mixed_matrices, only: add_mixed_geometric, assemble_mixed_mass, assemble_mixed_stiffness, &
     mixed_work
+  use modal_assurance, only: mode_prints_t, new_mode_prints
   use part_displacements, only: chords_of
   use part_forces, only: make_room, part_forces_t, take_forces
   use part_poses, only: part_loads_t
@@ -23,8 +24,8 @@ module mixed_positions
   private
 
   public :: mixed_position_t, new_mixed_position, assemble_rest, try_to_hold, hold, &
-    find_mixed_forces, stiffen, find_mixed_modes, displacements_of, modes_on_border, find_work, &
-    largest_work
+    find_mixed_forces, stiffen, find_mixed_modes, displacements_of, modes_on_border, &
+    find_mixed_prints, find_work, largest_work
 
   !> Allocated once for a model, filled at every position.
   type :: mixed_position_t
@@ -148,7 +149,7 @@ contains
       if (size(mixed%unit_stiffness, 1) /= size(mixed%at_rest)) deallocate (mixed%unit_stiffness)
     end if
     if (.not. allocated(mixed%unit_stiffness)) allocate (mixed%unit_stiffness( &
-      size(mixed%at_rest), case_count))
+      size(mixed%at_rest), case_count), source=0.0_wp)
     do i = 1, case_count
       if (.not. loads%unit%occurs(i)) cycle
       mixed%unit_stiffness(:, i) = 0.0_wp
@@ -220,8 +221,8 @@ contains
     type(bordered_modes_t), intent(out) :: found
 
     real(wp), allocatable :: z(:, :), without_own(:), product(:)
-    real(wp) :: norm, energy
-    integer :: i, k, n, first, axial
+    real(wp) :: norm
+    integer :: i, n
 
     n = size(modes%lambda)
     layout = new_bordered_layout(n, links%modes, links%axial_modes)
@@ -236,25 +237,10 @@ contains
       norm = norm2(z(mixed%form%rows + 1:mixed%form%displacements, i))
       if (.not. norm > 0.0_wp) norm = tiny(norm)
       found%vector(i, i) = norm
-      axial = layout%unknowns - sum(links%axial_modes)
-      do k = 1, size(links)
-        first = layout%first(k) - 1
-        associate (own => z(mixed%form%own(k) + 1:, i))
-          found%vector(first + 1:first + links(k)%modes, i) = own(:links(k)%modes)
-          found%vector(axial + 1:axial + links(k)%axial_modes, i) = own(links(k)%modes + 1: &
-            links(k)%modes + links(k)%axial_modes)
-        end associate
-        axial = axial + links(k)%axial_modes
-      end do
+      call take_own(mixed%form, links, layout, z(:, i), found%vector(:, i))
       z(:, i) = z(:, i)/norm
     end do
     chords = displacements_of(mixed%form, elastic, links, pose, z)
-    ! Modes are recognised by the energy of their strains.
-    found%mass_times = found%vector
-    do i = 1, n
-      energy = dot_product(found%vector(:, i), found%vector(:, i))
-      found%mass_times(:, i) = found%vector(:, i)/max(energy, tiny(energy))
-    end do
     allocate (border_mass(n, n), product(size(z, 1)))
     do i = 1, n
       without_own = z(:, i)
@@ -264,6 +250,60 @@ contains
       border_mass(:, i) = matmul(product, z)
     end do
   end subroutine modes_on_border
+
+  !> Puts own modes of links in the order of a bordered matrix.
+  pure subroutine take_own(form, links, layout, z, vector)
+    type(mixed_form_t), intent(in) :: form
+    type(link_modes_t), intent(in) :: links(:)
+    type(layout_t), intent(in) :: layout
+    real(wp), intent(in) :: z(:)
+    real(wp), intent(inout) :: vector(:)
+
+    integer :: axial, first, k, own
+
+    axial = layout%unknowns - sum(links%axial_modes)
+    do k = 1, size(links)
+      first = layout%first(k) - 1
+      own = form%own(k)
+      vector(first + 1:first + links(k)%modes) = z(own + 1:own + links(k)%modes)
+      own = own + links(k)%modes
+      vector(axial + 1:axial + links(k)%axial_modes) = z(own + 1:own + links(k)%axial_modes)
+      axial = axial + links(k)%axial_modes
+    end do
+  end subroutine take_own
+
+  !> Prints of the first modes: strains and own modes, and M of these. With K at rest the unit
+  !! matrix between strains, the forces `M z` do the work of the strains of `K⁻¹ M z`.
+  pure subroutine find_mixed_prints(mixed, links, modes, number, prints)
+    type(mixed_position_t), intent(inout) :: mixed  !! at the position of the modes; the factor
+                                                    !! becomes that of K at rest
+    type(link_modes_t), intent(in) :: links(:)      !! (parts)
+    type(bordered_modes_t), intent(in) :: modes     !! in the unknowns of the form
+    integer, intent(in) :: number                   !! how many
+    type(mode_prints_t), intent(out) :: prints
+
+    type(bordered_modes_t) :: strains
+    type(layout_t) :: layout
+    real(wp) :: strained(mixed%form%unknowns, number)
+    integer :: i, n
+
+    associate (form => mixed%form)
+      n = form%displacements - form%rows
+      layout = new_bordered_layout(n, links%modes, links%axial_modes)
+      call factorize(form%plan, form%elements, mixed%at_rest, mixed%pencil%factor)
+      strained = modes%mass_times(:, :number)
+      call solve(form%plan, mixed%pencil%factor, strained)
+      allocate (strains%vector(layout%unknowns, number), strains%mass_times(layout%unknowns, &
+        number), source=0.0_wp)
+      do i = 1, number
+        strains%vector(:n, i) = modes%vector(form%rows + 1:form%displacements, i)
+        strains%mass_times(:n, i) = strained(form%rows + 1:form%displacements, i)
+        call take_own(form, links, layout, modes%vector(:, i), strains%vector(:, i))
+        call take_own(form, links, layout, strained(:, i), strains%mass_times(:, i))
+      end do
+    end associate
+    prints = new_mode_prints(layout, strains, number)
+  end subroutine find_mixed_prints
 
   !> `zᵀ(K − λM) z` of the lowest modes, K at a speed [1/s²]: what a change of the matrices changes
   !! of it, multipliers and all, it changes of the eigenvalue to first order.

@@ -171,7 +171,8 @@ contains
           size(degrees)), spread(.false., 1, size(degrees)), model, error, store, degrees, &
           structure%elastic%held)
         if (allocated(error)) return
-        call choose_form(structure, [(positions%states(chosen(i))%crank, i=1, size(chosen))], model)
+        call choose_form(structure, demand%modes, [(positions%states(chosen(i))%crank, i=1, &
+          size(chosen))], model)
       else
         call new_deformation_model(linkage, beams, spread(0, 1, size(degrees)), spread(0, 1, &
           size(degrees)), spread(.false., 1, size(degrees)), model, error, store, degrees)
