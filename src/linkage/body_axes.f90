@@ -88,12 +88,18 @@ contains
     if (other == pin) other = pins(2)
   end function other_pin
 
+  !> Whether a pin is one of a body. No list of them is made: plans ask for every body and pin.
   pure function has_pin(body, pin)
     type(body_t), intent(in) :: body
     integer, intent(in) :: pin
     logical :: has_pin
 
-    has_pin = any(pins_of_body(body) == pin)
+    integer :: i
+
+    has_pin = body%first_pin == pin .or. body%last_pin == pin
+    do i = 1, size(body%further)
+      has_pin = has_pin .or. body%further(i)%pin == pin
+    end do
   end function has_pin
 
 end module body_axes
