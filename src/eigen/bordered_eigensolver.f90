@@ -30,7 +30,7 @@ module bordered_eigensolver
   implicit none (type, external)
   private
 
-  public :: bordered_modes_t, start_t, find_bordered_modes, new_start
+  public :: bordered_modes_t, start_t, find_bordered_modes, new_start, overlaps, choose_modes
 
   !> Start values for a search, from neighbouring positions or a dense eigenproblem.
   type :: start_t
@@ -423,7 +423,8 @@ contains
 
   !> Whether a mode is already among those found.
   pure function overlaps(vector, mass_times)
-    real(wp), intent(in) :: vector(:), mass_times(:, :)
+    real(wp), intent(in) :: vector(:)        !! (unknowns)
+    real(wp), intent(in) :: mass_times(:, :) !! (unknowns, modes) M times those found
     logical :: overlaps
 
     integer :: j
@@ -436,15 +437,15 @@ contains
 
   !> Keeps the modes listed, in this order.
   pure subroutine choose_modes(found, order)
-    type(bordered_modes_t), intent(inout) :: found
-    integer, intent(in) :: order(:)
+    type(bordered_modes_t), intent(inout) :: found !! with K y or without
+    integer, intent(in) :: order(:)                !! their numbers
 
     found%lambda = found%lambda(order)
     found%error = found%error(order)
     found%origin = found%origin(order)
     found%vector = found%vector(:, order)
     found%mass_times = found%mass_times(:, order)
-    found%stiffness_times = found%stiffness_times(:, order)
+    if (allocated(found%stiffness_times)) found%stiffness_times = found%stiffness_times(:, order)
   end subroutine choose_modes
 
   !> Inverse iteration at the Rayleigh quotient. The mode's column of `found` holds the start: a

@@ -16,7 +16,7 @@ module position_assembly
   use linkages, only: drive_of_length
   use load_cases, only: find_unit_loads, unit_loads_t
   use mixed_positions, only: assemble_rest, find_mixed_forces, hold, mixed_position_t, &
-    new_mixed_position, stiffen, try_to_hold
+    new_mixed_position, stiffen
   use part_displacements, only: border_size, border_t, find_part_chords, new_border
   use part_forces, only: find_part_forces, part_forces_t
   use part_poses, only: find_part_loads, part_loads_t, place_parts_of
@@ -78,7 +78,6 @@ contains
     type(pose_t) :: pose
     type(error_t), allocatable :: error
     integer :: i
-    logical :: held
 
     model%mixed = has_many_parts(structure, modes)
     if (model%mixed) then
@@ -89,8 +88,8 @@ contains
         call place_parts(structure, model, pose, here, error)
         if (allocated(error)) cycle
         call assemble_rest(here%elastic, here%model%links, here%pose, here%mixed)
-        call try_to_hold(here%mixed, held)
-        if (held) return
+        call hold(here%pose, here%mixed, error)
+        if (.not. allocated(error)) return
       end do
       model%mixed = .false.
     end if

@@ -17,6 +17,10 @@ module indefinite_factor
     module procedure :: reserve_integers, reserve_values
   end interface reserve
 
+  interface solve
+    module procedure :: solve_columns, solve_column
+  end interface solve
+
   !> A pivot is at least this much of the rest of its column; pairs alike. Errors of 0.3 are a third
   !! of those of 0.1, and time is a twentieth more.
   real(wp), parameter :: threshold = 0.3_wp
@@ -88,8 +92,21 @@ contains
     call describe_pivots(factor)
   end subroutine factorize
 
+  !> The solution of `A x = b`.
+  pure subroutine solve_column(plan, factor, x)
+    type(elimination_plan_t), intent(in) :: plan
+    type(indefinite_factor_t), intent(in) :: factor !! of A
+    real(wp), intent(inout) :: x(:)                 !! (unknowns) b; becomes x
+
+    real(wp) :: column(size(x), 1)
+
+    column(:, 1) = x
+    call solve_columns(plan, factor, column)
+    x = column(:, 1)
+  end subroutine solve_column
+
   !> Solutions of `A x = b`.
-  pure subroutine solve(plan, factor, x)
+  pure subroutine solve_columns(plan, factor, x)
     type(elimination_plan_t), intent(in) :: plan
     type(indefinite_factor_t), intent(in) :: factor !! of A
     real(wp), intent(inout) :: x(:, :)              !! (unknowns, any) b; becomes x
@@ -128,7 +145,7 @@ contains
     do c = 1, size(x, 2)
       x(:, c) = factor%scale*x(:, c)
     end do
-  end subroutine solve
+  end subroutine solve_columns
 
   !> Storage as far as the plan tells, the first time; counts at zero.
   pure subroutine prepare(plan, factor)

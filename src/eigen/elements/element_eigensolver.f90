@@ -10,7 +10,8 @@
 !! then has as many negative eigenvalues as there are conditions and modes below μ.
 module element_eigensolver
   use band_matrix, only: full_band
-  use bordered_eigensolver, only: bordered_modes_t, start_t
+  use bordered_eigensolver, only: bordered_modes_t, choose_modes, overlaps, start_t
+  use completeness_proof, only: count_margin
   use dense_eigensolver, only: solve_dense
   use eigenvalue_gaps, only: relative_gap
   use element_matrices, only: absolute_times_vector, elements_t, times_vector
@@ -35,9 +36,6 @@ module element_eigensolver
 
   integer, parameter :: most_iterations = 8
 
-  !> Two starts have converged to the same mode where the overlap of their modes is above this.
-  real(wp), parameter :: most_overlap = 1.0e-5_wp
-
   !> Relative distance of eigenvalues below which a mode is kept orthogonal to those found before.
   real(wp), parameter :: same_eigenvalue = 1.0e-3_wp
 
@@ -45,8 +43,8 @@ module element_eigensolver
   real(wp), parameter :: rounding = 16.0_wp
 
   !> Relative distances above the last wanted mode at which modes are counted, the first that
-  !! proves; the least as of `completeness_proof`.
-  real(wp), parameter :: margins(3) = [1.0e-3_wp, 1.0e-5_wp, 1.0e-8_wp]
+  !! proves.
+  real(wp), parameter :: margins(3) = [1.0e-3_wp, 1.0e-5_wp, count_margin]
 
   !> Searches for what is missing.
   integer, parameter :: most_attempts = 100
@@ -140,11 +138,7 @@ contains
     real(wp), intent(in) :: shift !! μ [1/s²]
     integer, intent(inout) :: factorizations
 
-    if (abs(shift) > 0.0_wp) then
-      call factorize(plan, elements, pencil%stiffness - shift*pencil%mass, pencil%factor)
-    else
-      call factorize(plan, elements, pencil%stiffness, pencil%factor)
-    end if
+    call factorize(plan, elements, pencil%stiffness - shift*pencil%mass, pencil%factor)
     factorizations = factorizations + 1
   end subroutine shift_to
 
@@ -160,20 +154,6 @@ contains
     call shift_to(elements, plan, pencil, shift, factorizations)
     number = pencil%factor%negative - pencil%conditions
   end subroutine count_below
-
-  !> `(K − μM)⁻¹ x` with the factor at hand.
-  pure subroutine solve_with(plan, pencil, right_side, solution)
-    type(elimination_plan_t), intent(in) :: plan
-    type(element_pencil_t), intent(in) :: pencil
-    real(wp), intent(in) :: right_side(:)
-    real(wp), intent(out) :: solution(:)
-
-    real(wp) :: column(size(right_side), 1)
-
-    column(:, 1) = right_side
-    call solve(plan, pencil%factor, column)
-    solution = column(:, 1)
-  end subroutine solve_with
 
   !> Improves every mode of a start, adds those that are new, and sorts all.
   pure subroutine add_modes(elements, plan, pencil, accurate_vectors, start, is_known, found)
@@ -230,30 +210,6 @@ contains
       found%vector(unknowns, modes), found%mass_times(unknowns, modes))
   end subroutine make_room
 
-  !> Whether a mode is already among those found.
-  pure logical function overlaps(vector, mass_times)
-    real(wp), intent(in) :: vector(:), mass_times(:, :)
-
-    integer :: j
-
-    overlaps = .false.
-    do j = 1, size(mass_times, 2)
-      overlaps = overlaps .or. abs(dot_product(vector, mass_times(:, j))) > most_overlap
-    end do
-  end function overlaps
-
-  !> Keeps the modes listed, in this order.
-  pure subroutine choose_modes(found, order)
-    type(bordered_modes_t), intent(inout) :: found
-    integer, intent(in) :: order(:)
-
-    found%lambda = found%lambda(order)
-    found%error = found%error(order)
-    found%origin = found%origin(order)
-    found%vector = found%vector(:, order)
-    found%mass_times = found%mass_times(:, order)
-  end subroutine choose_modes
-
   !> Inverse iteration at the Rayleigh quotient, two steps with each factor. The mode's column of
   !! `found` holds the start: a direction `M z` and an estimate of the eigenvalue.
   !!
@@ -286,7 +242,8 @@ contains
         call shift_to(elements, plan, pencil, lambda, found%factorizations)
         do step = 1, 2
           if (step == 2) before = vector
-          call solve_with(plan, pencil, mass_times, vector)
+          vector = mass_times
+          call solve(plan, pencil%factor, vector)
           call take_off(found, mode, lambda, vector)
           call normalise(elements, pencil, vector, mass_times, scale, sound)
           if (.not. sound) exit iterations
@@ -436,7 +393,8 @@ contains
         next(i) = seed - 0.5_wp
       end do
       call times_vector(elements, pencil%mass, next, basis(:, n + 1))
-      call solve_with(plan, pencil, basis(:, n + 1), next)
+      next = basis(:, n + 1)
+      call solve(plan, pencil%factor, next)
       call add_vector()
     end do
     from = 1
@@ -446,7 +404,8 @@ contains
       to = n
       if (from > to) exit
       do j = from, to
-        call solve_with(plan, pencil, mass_times(:, j), next)
+        next = mass_times(:, j)
+        call solve(plan, pencil%factor, next)
         do i = 1, to
           products(i, j) = dot_product(mass_times(:, i), next)
           products(j, i) = products(i, j)

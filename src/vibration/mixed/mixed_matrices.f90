@@ -5,7 +5,7 @@ module mixed_matrices
   use drive_rates, only: turn_of_end
   use elastic_linkages, only: elastic_linkage_t, is_piece, spring_t
   use kinds, only: wp
-  use link_modes, only: link_modes_t, rigid
+  use link_modes, only: link_modes_t
   use linkages, only: normal_to, turned
   use load_cases, only: constant_case
   use mixed_form, only: mixed_form_t
@@ -409,8 +409,8 @@ contains
     end associate
   end subroutine add_carried
 
-  !> Adds `K_G` of a load case, times a factor.
-  subroutine add_mixed_geometric(form, elastic, links, pose, loads, forces, case, factor, value)
+  !> Adds `K_G` of a load case.
+  subroutine add_mixed_geometric(form, elastic, links, pose, loads, forces, case, value)
     type(mixed_form_t), intent(in) :: form         !! of the linkage
     type(elastic_linkage_t), intent(in) :: elastic !! at this position
     type(link_modes_t), intent(in) :: links(:)     !! (parts) of these lengths
@@ -418,7 +418,6 @@ contains
     type(part_loads_t), intent(in) :: loads        !! of this position
     type(part_forces_t), intent(in) :: forces      !! of these
     integer, intent(in) :: case                    !! number of the load case
-    real(wp), intent(in) :: factor                 !! of it
     real(wp), intent(inout) :: value(:)            !! of the elements
 
     type(local_t) :: local
@@ -427,7 +426,7 @@ contains
 
     do k = 1, size(links)
       local = place_locally(form, elastic, links(k), k, pose)
-      call add_part_stiffness(form, links(k), local, factor*forces%axial(:, k, case), k, value)
+      call add_part_stiffness(form, links(k), local, forces%axial(:, k, case), k, value)
     end do
     row = 0.0_wp
     turn = 0.0_wp
@@ -436,7 +435,7 @@ contains
       k = form%line + i
       call add_line(elastic, form%numbers, pose, i, line_direction(elastic, pose, i), row)
       turn(form%numbers%rotation(elastic%guide_rotation(i))) = 1.0_wp/form%numbers%size_of
-      call add_product(form, k, factor*forces%guide(i, case), row, turn, value)
+      call add_product(form, k, forces%guide(i, case), row, turn, value)
       call clear(form, k, row)
       call clear(form, k, turn)
     end do
@@ -451,7 +450,7 @@ contains
       associate (this => elastic%carried(i))
         if (this%rotation <= 0) cycle
         turn(form%numbers%rotation(this%rotation)) = 1.0_wp/form%numbers%size_of
-        call add_product(form, form%carried + i, 0.5_wp*factor*loads%carried(4, i, case), turn, &
+        call add_product(form, form%carried + i, 0.5_wp*loads%carried(4, i, case), turn, &
           turn, value)
         turn(form%numbers%rotation(this%rotation)) = 0.0_wp
       end associate
@@ -471,7 +470,7 @@ contains
       way = spring_way(elastic, pose, spring)
       if (.not. norm2(way) > 0.0_wp) return
       call add_stretch(elastic, form%numbers, pose, spring, normal_to(way)/norm2(way), row)
-      call add_product(form, element, 0.5_wp*factor*pull/norm2(way), row, row, value)
+      call add_product(form, element, 0.5_wp*pull/norm2(way), row, row, value)
       call clear(form, element, row)
     end subroutine add_pull
 

@@ -23,7 +23,7 @@ module mixed_positions
   implicit none (type, external)
   private
 
-  public :: mixed_position_t, new_mixed_position, assemble_rest, try_to_hold, hold, &
+  public :: mixed_position_t, new_mixed_position, assemble_rest, hold, &
     find_mixed_forces, stiffen, find_mixed_modes, displacements_of, modes_on_border, &
     find_mixed_prints, find_work, largest_work
 
@@ -71,15 +71,6 @@ contains
     end associate
   end subroutine assemble_rest
 
-  !> Finds the factor of K at rest, and whether the conditions hold the linkage, each of them
-  !! independent of the others.
-  pure subroutine try_to_hold(mixed, held)
-    type(mixed_position_t), intent(inout) :: mixed  !! at rest
-    logical, intent(out) :: held
-
-    call check_conditions(mixed%form%elements, mixed%form%plan, mixed%pencil, held)
-  end subroutine try_to_hold
-
   !> Finds the factor of K at rest.
   !!
   !! Errors: a dead point or a change point, where conditions do not hold the linkage, or follow
@@ -91,7 +82,7 @@ contains
 
     logical :: held
 
-    call try_to_hold(mixed, held)
+    call check_conditions(mixed%form%elements, mixed%form%plan, mixed%pencil, held)
     if (held) return
     call refuse_change_point(pose, error)
     if (.not. allocated(error)) call set_error(error, error_of_dead_point, &
@@ -109,7 +100,7 @@ contains
     type(part_forces_t), intent(out) :: forces
     real(wp), allocatable, intent(out) :: solution(:, :) !! (unknowns, cases)
 
-    real(wp) :: rest(mixed%form%unknowns, 1), product(mixed%form%unknowns)
+    real(wp) :: rest(mixed%form%unknowns), product(mixed%form%unknowns)
     integer :: i, n
 
     call make_room(linkage, elastic, loads, mixed%form%numbers, case_count, forces)
@@ -118,14 +109,14 @@ contains
       n = form%multipliers + size(form%numbers%rows)
       do i = 1, case_count
         if (.not. loads%unit%occurs(i)) cycle
-        rest(:, 1) = mixed_work(form, elastic, links, pose, loads, i)
-        solution(:, i:i) = rest
-        call solve(form%plan, mixed%pencil%factor, solution(:, i:i))
+        rest = mixed_work(form, elastic, links, pose, loads, i)
+        solution(:, i) = rest
+        call solve(form%plan, mixed%pencil%factor, solution(:, i))
         ! Refined once: forces pass from part to part with all their digits.
         call times_vector(form%elements, mixed%at_rest, solution(:, i), product)
-        rest(:, 1) = rest(:, 1) - product
+        rest = rest - product
         call solve(form%plan, mixed%pencil%factor, rest)
-        solution(:, i) = solution(:, i) + rest(:, 1)
+        solution(:, i) = solution(:, i) + rest
         ! The unknowns of `displacements_of` these solutions.
         forces%border(i, i) = 1.0_wp
         call take_forces(elastic, links, pose, loads, form%numbers, &
@@ -153,7 +144,7 @@ contains
     do i = 1, case_count
       if (.not. loads%unit%occurs(i)) cycle
       mixed%unit_stiffness(:, i) = 0.0_wp
-      call add_mixed_geometric(mixed%form, elastic, links, pose, loads, forces, i, 1.0_wp, &
+      call add_mixed_geometric(mixed%form, elastic, links, pose, loads, forces, i, &
         mixed%unit_stiffness(:, i))
     end do
   end subroutine stiffen
@@ -203,7 +194,6 @@ contains
     chords = chords_of(elastic, links, pose, form%numbers, &
       form%unit*z(form%displacements + 1:form%multipliers, :), &
       z(form%rows + 1:form%displacements, :))
-    chords%weighted = z(form%rows + 1:form%displacements, :)
   end function displacements_of
 
   !> Modes as those of a bordered matrix whose border are the modes themselves: the unknown of a
@@ -228,9 +218,7 @@ contains
     layout = new_bordered_layout(n, links%modes, links%axial_modes)
     found%lambda = modes%lambda
     found%error = modes%error
-    found%origin = modes%origin
     found%near = modes%near
-    found%clear = modes%clear
     allocate (found%vector(layout%unknowns, n), source=0.0_wp)
     z = modes%vector
     do i = 1, n
