@@ -1,11 +1,14 @@
-!> Products of rows of two matrices, column after column: arrays over the crank angle run along
-!! their columns.
+!> Products of matrices that arrays hold row by row: arrays over the crank angle run along their
+!! columns, and every sample has a matrix of its own.
 module row_products
   use kinds, only: wp
   implicit none (type, external)
   private
 
-  public :: products_of_rows, sum_of_products
+  public :: products_of_rows, sum_of_products, add_products, multiply_by
+
+  !> Samples whose matrices are gathered together: a line of the memory holds so many numbers.
+  integer, parameter :: together = 8
 
 contains
 
@@ -35,5 +38,72 @@ contains
 
     total = sum(products_of_rows(a, b))
   end function sum_of_products
+
+  !> Adds `AᵀB` of every sample.
+  pure subroutine add_products(a, b, total)
+    real(wp), intent(in) :: a(:, :, :)       !! (samples, rows, m)
+    real(wp), intent(in) :: b(:, :, :)       !! (samples, rows, n)
+    real(wp), intent(inout) :: total(:, :)   !! (samples, m n)
+
+    real(wp), allocatable :: left(:, :, :), right(:, :, :), product(:, :)
+    integer :: i, j, k, first, last, m, n
+
+    m = size(a, 3)
+    n = size(b, 3)
+    allocate (left(m, size(a, 2), together), right(size(b, 2), n, together), product(m, n))
+    do first = 1, size(a, 1), together
+      last = min(first + together - 1, size(a, 1))
+      do j = 1, size(a, 2)
+        do i = 1, m
+          left(i, j, :last - first + 1) = a(first:last, j, i)
+        end do
+      end do
+      call gather(b, first, last, right)
+      do k = first, last
+        product = matmul(left(:, :, k - first + 1), right(:, :, k - first + 1))
+        do j = 1, n
+          total(k, (j - 1)*m + 1:j*m) = total(k, (j - 1)*m + 1:j*m) + product(:, j)
+        end do
+      end do
+    end do
+  end subroutine add_products
+
+  !> Replaces A by `A B` at every sample.
+  pure subroutine multiply_by(b, a)
+    real(wp), intent(in) :: b(:, :, :)    !! (n, n, samples)
+    real(wp), intent(inout) :: a(:, :, :) !! (samples, rows, n)
+
+    real(wp), allocatable :: left(:, :, :)
+    integer :: i, j, k, first, last
+
+    allocate (left(size(a, 2), size(a, 3), together))
+    do first = 1, size(a, 1), together
+      last = min(first + together - 1, size(a, 1))
+      call gather(a, first, last, left)
+      do k = first, last
+        left(:, :, k - first + 1) = matmul(left(:, :, k - first + 1), b(:, :, k))
+      end do
+      do j = 1, size(a, 3)
+        do i = 1, size(a, 2)
+          a(first:last, i, j) = left(i, j, :last - first + 1)
+        end do
+      end do
+    end do
+  end subroutine multiply_by
+
+  !> The matrices of some samples.
+  pure subroutine gather(a, first, last, matrices)
+    real(wp), intent(in) :: a(:, :, :)           !! (samples, rows, columns)
+    integer, intent(in) :: first, last           !! of the samples
+    real(wp), intent(inout) :: matrices(:, :, :) !! (rows, columns, samples)
+
+    integer :: i, j
+
+    do j = 1, size(a, 3)
+      do i = 1, size(a, 2)
+        matrices(i, j, :last - first + 1) = a(first:last, i, j)
+      end do
+    end do
+  end subroutine gather
 
 end module row_products

@@ -20,7 +20,7 @@ module slow_motions
   use lapack, only: dgeev, dgetf2, dgetrf, dgetrs
   use load_cases, only: constant_case
   use piece_motions, only: add_convection, scale_share
-  use row_products, only: products_of_rows
+  use row_products, only: add_products, multiply_by, products_of_rows
   use sorting, only: ascending_order
   use text, only: to_string
   use turn_grids, only: moves, rate_case, turn_grid_t
@@ -67,6 +67,10 @@ module slow_motions
   integer, parameter :: of_rate = 8      !! XᵀCX
   integer, parameter :: of_drift = 9     !! XᵀCX', and XᵀK_GX per ω2 of dampers
   integer, parameter :: matrices = 9
+
+  !> Load cases whose axial forces are in K_G, and the sums that have it.
+  integer, parameter :: case_of_sum(*) = [1, constant_case, rate_case]
+  integer, parameter :: sums_of_cases(*) = [of_speed, of_loads, of_drift]
 
   !> Steps of the collocation at one speed.
   type :: slow_motion_t
@@ -197,11 +201,8 @@ contains
     end do
     allocate (basis%inverse(plan%samples, number, number))
     do j = 1, number
-      do i = 1, j
-        basis%inverse(:, i, j) = products_of_rows(basis%shape(:, :, i), &
-          basis%shape(:, :, j))
-        basis%inverse(:, j, i) = basis%inverse(:, i, j)
-      end do
+      call resample(coarse_plan, basis%sums(:, (j - 1)*number + 1:j*number, of_stiffness), plan, &
+        basis%inverse(:, :, j))
     end do
     do k = 1, plan%samples
       call invert((basis%inverse(k, :, :)), basis%inverse(k, :, :))
@@ -235,16 +236,16 @@ contains
       return
     end if
     if (.not. allocated(grid%weighted)) then
-      call add_products(plan, damping, shape, sums)
+      call add_damped_products(plan, damping, shape, sums)
       return
     end if
-    call add_products(plan, damping(grid%border + 1:grid%unknowns), shape(:, grid%border + 1:, :), &
-      sums)
+    call add_damped_products(plan, damping(grid%border + 1:grid%unknowns), &
+      shape(:, grid%border + 1:, :), sums)
     allocate (w(grid%samples, size(grid%weighted, 2), size(shape, 3)))
     do i = 1, size(shape, 3)
       w(:, :, i) = deformations_of(grid, shape(:, :, i))
     end do
-    call add_products(plan, damping(grid%unknowns + 1:), w, sums)
+    call add_damped_products(plan, damping(grid%unknowns + 1:), w, sums)
   end subroutine add_damping
 
   !> The same of strains that move through pieces with their material.
@@ -275,39 +276,36 @@ contains
       slope(:, deformations + 1:, i) = rates(:, own:)
     end do
     before = merge(n, 0, allocated(grid%weighted))
-    call add_products(plan, [damping(before + 1:before + deformations), damping(own:n)], strain, &
-      sums, slope)
+    call add_damped_products(plan, [damping(before + 1:before + deformations), damping(own:n)], &
+      strain, sums, slope)
   end subroutine add_strain_products
 
   !> Adds those of some motions with constant damping each.
-  subroutine add_products(plan, damping, shape, sums, rates)
+  subroutine add_damped_products(plan, damping, shape, sums, rates)
     type(fourier_plan_t), intent(in) :: plan
     real(wp), intent(in) :: damping(:)
     real(wp), intent(in) :: shape(:, :, :) !! (samples, motions, number)
     real(wp), intent(inout) :: sums(:, :, :)
     real(wp), intent(in), optional :: rates(:, :, :) !! of the motions; absent: their derivatives
 
-    real(wp), dimension(size(shape, 1), size(shape, 2)) :: damped, slope
-    integer :: at, i, j, number
+    real(wp), allocatable :: damped(:, :, :), slope(:, :, :)
+    integer :: i, j
 
-    number = size(shape, 3)
-    do j = 1, number
+    allocate (damped, slope, mold=shape)
+    do j = 1, size(shape, 3)
       if (present(rates)) then
-        slope = rates(:, :, j)
+        slope(:, :, j) = rates(:, :, j)
       else
-        call derivatives(plan, shape(:, :, j), slope)
+        call derivatives(plan, shape(:, :, j), slope(:, :, j))
       end if
       do i = 1, size(damping)
-        damped(:, i) = damping(i)*shape(:, i, j)
-        slope(:, i) = damping(i)*slope(:, i)
-      end do
-      do i = 1, number
-        at = (j - 1)*number + i
-        sums(:, at, of_rate) = sums(:, at, of_rate) + products_of_rows(shape(:, :, i), damped)
-        sums(:, at, of_drift) = sums(:, at, of_drift) + products_of_rows(shape(:, :, i), slope)
+        damped(:, i, j) = damping(i)*shape(:, i, j)
+        slope(:, i, j) = damping(i)*slope(:, i, j)
       end do
     end do
-  end subroutine add_products
+    call add_products(shape, damped, sums(:, :, of_rate))
+    call add_products(shape, slope, sums(:, :, of_drift))
+  end subroutine add_damped_products
 
   !> X from subspace iterations on the mass matrix.
   subroutine find_shapes(grid, slow, shape, error)
@@ -316,20 +314,19 @@ contains
     real(wp), allocatable, intent(out) :: shape(:, :, :) !! (samples, unknowns, number)
     type(error_t), allocatable, intent(out) :: error
 
-    real(wp), allocatable :: product(:, :, :)
+    real(wp) :: product(grid%samples, grid%unknowns)
     integer :: i, k
 
-    allocate (shape(grid%samples, grid%unknowns, size(slow)), product(grid%samples, &
-      grid%unknowns, size(slow)))
-    shape = 0.0_wp
+    allocate (shape(grid%samples, grid%unknowns, size(slow)), source=0.0_wp)
     do i = 1, size(slow)
       shape(:, slow(i), i) = 1.0_wp
     end do
     do k = 1, merge(iterations_with_pieces, iterations, allocated(grid%pieces))
       do i = 1, size(slow)
-        call mass_force(grid, shape(:, :, i), product(:, :, i))
+        call mass_force(grid, shape(:, :, i), product)
+        shape(:, :, i) = product
       end do
-      call normalise(product, slow, shape, error)
+      call normalise(slow, shape, error)
       if (allocated(error)) return
     end do
   end subroutine find_shapes
@@ -343,7 +340,7 @@ contains
                                                         !! they are none of these
 
     real(wp), allocatable :: first(:, :, :), q(:, :, :)
-    integer :: b, i, j, n, number
+    integer :: b, i, n, number
 
     n = grid%samples
     number = size(shape, 3)
@@ -363,12 +360,7 @@ contains
       end associate
     end do
     call add_pins(grid, plan, shape, sums)
-    do j = 1, number
-      do i = 1, number
-        sums(:, (j - 1)*number + i, of_stiffness) = products_of_rows(shape(:, :, i), &
-          shape(:, :, j))
-      end do
-    end do
+    call add_products(shape, shape, sums(:, :, of_stiffness))
     do b = 1, size(grid%integrals)
       call add_axial(grid, b, shape, sums)
     end do
@@ -381,23 +373,18 @@ contains
     real(wp), intent(in) :: shape(:, :, :)
     real(wp), intent(inout) :: sums(:, :, :)
 
-    real(wp) :: work(size(shape, 1))
-    integer :: at, i, j, k, l
+    real(wp) :: pushed(size(shape, 1), grid%border, size(shape, 3))
+    integer :: c, j, k
 
-    do j = 1, size(shape, 3)
-      do i = 1, size(shape, 3)
-        at = (j - 1)*size(shape, 3) + i
-        do l = 1, grid%border
-          do k = 1, grid%border
-            work = shape(:, k, i)*shape(:, l, j)
-            sums(:, at, of_speed) = sums(:, at, of_speed) + grid%second_order(:, k, l, 1)*work
-            sums(:, at, of_loads) = sums(:, at, of_loads) + grid%second_order(:, k, l, &
-              constant_case)*work
-            if (grid%cases >= rate_case) sums(:, at, of_drift) = sums(:, at, of_drift) + &
-              grid%second_order(:, k, l, rate_case)*work
-          end do
+    do c = 1, size(sums_of_cases)
+      if (case_of_sum(c) > grid%cases) cycle
+      do j = 1, size(shape, 3)
+        do k = 1, grid%border
+          pushed(:, k, j) = products_of_rows(grid%second_order(:, k, :, case_of_sum(c)), &
+            shape(:, :grid%border, j))
         end do
       end do
+      call add_products(shape(:, :grid%border, :), pushed, sums(:, :, sums_of_cases(c)))
     end do
   end subroutine add_second_order
 
@@ -409,42 +396,43 @@ contains
     real(wp), intent(inout) :: sums(:, :, :)
 
     real(wp) :: slope(size(shape, 1), size(grid%model%links(b)%geometric, 1), size(shape, 3))
-    real(wp) :: bent(size(slope, 1), size(slope, 2)), work(size(slope, 1))
-    integer :: at, i, j, k
+    real(wp) :: pulled(size(slope, 1), size(slope, 2), size(slope, 3), size(sums_of_cases))
+    real(wp) :: bent(size(slope, 1), size(slope, 2))
+    integer :: c, i, j, k
 
-    do i = 1, size(shape, 3)
-      slope(:, :, i) = slopes_of(grid, b, shape(:, :, i))
-    end do
-    do k = 1, size(grid%model%links(b)%geometric, 3)
-      do j = 1, size(shape, 3)
+    pulled = 0.0_wp
+    do j = 1, size(shape, 3)
+      slope(:, :, j) = slopes_of(grid, b, shape(:, :, j))
+      do k = 1, size(grid%model%links(b)%geometric, 3)
         bent = matmul(slope(:, :, j), grid%model%links(b)%geometric(:, :, k))
         call scale_share(grid, b, bent)
-        do i = 1, size(shape, 3)
-          at = (j - 1)*size(shape, 3) + i
-          work = products_of_rows(slope(:, :, i), bent)
-          sums(:, at, of_speed) = sums(:, at, of_speed) + grid%force(:, k, b, 1)*work
-          sums(:, at, of_loads) = sums(:, at, of_loads) + grid%force(:, k, b, constant_case)*work
-          if (grid%cases >= rate_case) sums(:, at, of_drift) = sums(:, at, of_drift) + &
-            grid%force(:, k, b, rate_case)*work
+        do c = 1, size(sums_of_cases)
+          if (case_of_sum(c) > grid%cases) cycle
+          do i = 1, size(bent, 2)
+            pulled(:, i, j, c) = pulled(:, i, j, c) + grid%force(:, k, b, case_of_sum(c))*bent(:, i)
+          end do
         end do
       end do
+    end do
+    do c = 1, size(sums_of_cases)
+      if (case_of_sum(c) <= grid%cases) call add_products(slope, pulled(:, :, :, c), &
+        sums(:, :, sums_of_cases(c)))
     end do
   end subroutine add_axial
 
   !> Scales X so that its slow rows are the unit matrix: X then changes smoothly over the turn.
-  subroutine normalise(product, slow, shape, error)
-    real(wp), intent(in) :: product(:, :, :) !! (samples, unknowns, number)
+  subroutine normalise(slow, shape, error)
     integer, intent(in) :: slow(:)
-    real(wp), intent(out) :: shape(:, :, :)
+    real(wp), intent(inout) :: shape(:, :, :) !! (samples, unknowns, number)
     type(error_t), allocatable, intent(out) :: error
 
-    real(wp) :: inverse(size(slow), size(slow))
+    real(wp) :: inverse(size(slow), size(slow), size(shape, 1))
     integer :: k
 
-    do k = 1, size(product, 1)
-      call invert(product(k, slow, :), inverse)
-      shape(k, :, :) = matmul(product(k, :, :), inverse)
+    do k = 1, size(shape, 1)
+      call invert(shape(k, slow, :), inverse(:, :, k))
     end do
+    call multiply_by(inverse, shape)
     if (any(abs(shape) > huge(1.0_wp))) call set_error(error, error_of_numerics, &
       "the slow vibrations cannot be told from the fast ones")
   end subroutine normalise
@@ -475,31 +463,30 @@ contains
     real(wp), intent(in) :: q(:, :, :), first(:, :, :) !! (samples, functions, number) Q, Q'
     real(wp), intent(inout) :: sums(:, :, :)
 
-    real(wp), allocatable :: moved(:, :), moved_first(:, :), turned(:, :), turned_first(:, :), &
-      free(:, :)
-    integer :: i, j, at
+    !> Forces of the motion itself, of its velocity, and what the velocity of the frame adds
+    real(wp), dimension(size(q, 1), size(q, 2), size(q, 3)) :: moved, pushed, swept
+    real(wp), dimension(size(q, 1), size(q, 2)) :: turned, turned_first
+    integer :: i, j
 
     associate (integrals => grid%integrals(b), h => grid%rate(:, b))
       do j = 1, size(q, 3)
-        moved = times_mass(grid, b, q(:, :, j))
-        moved_first = times_mass(grid, b, first(:, :, j))
-        turned = -times_swap(grid, b, q(:, :, j))
-        turned_first = -times_swap(grid, b, first(:, :, j))
-        free = moved
-        if (size(integrals%rotary) > 0) free = moved - matmul(q(:, :, j), integrals%rotary)
-        do i = 1, size(q, 3)
-          at = (j - 1)*size(q, 3) + i
-          associate (q_i => q(:, :, i), first_i => first(:, :, i))
-            sums(:, at, of_mass) = sums(:, at, of_mass) + products_of_rows(q_i, moved)
-            sums(:, at, of_g) = sums(:, at, of_g) + products_of_rows(q_i, moved_first) + &
-              h*products_of_rows(q_i, turned)
-            sums(:, at, of_w) = sums(:, at, of_w) + products_of_rows(first_i, moved_first) + &
-              h*(products_of_rows(first_i, turned) - products_of_rows(q_i, turned_first)) + &
-              h**2*products_of_rows(q_i, free)
-          end associate
+        moved(:, :, j) = times_mass(grid, b, q(:, :, j))
+        pushed(:, :, j) = times_mass(grid, b, first(:, :, j))
+        turned = times_swap(grid, b, q(:, :, j))
+        turned_first = times_swap(grid, b, first(:, :, j))
+        swept(:, :, j) = moved(:, :, j)
+        if (size(integrals%rotary) > 0) swept(:, :, j) = moved(:, :, j) - matmul(q(:, :, j), &
+          integrals%rotary)
+        do i = 1, size(q, 2)
+          pushed(:, i, j) = pushed(:, i, j) - h*turned(:, i)
+          swept(:, i, j) = h*turned_first(:, i) + h**2*swept(:, i, j)
         end do
       end do
     end associate
+    call add_products(q, moved, sums(:, :, of_mass))
+    call add_products(q, pushed, sums(:, :, of_g))
+    call add_products(first, pushed, sums(:, :, of_w))
+    call add_products(q, swept, sums(:, :, of_w))
   end subroutine add_body
 
   !> Adds what masses at pins contribute.
@@ -510,7 +497,7 @@ contains
     real(wp), intent(inout) :: sums(:, :, :)
 
     real(wp) :: motion(size(shape, 1), 2, size(shape, 3)), first(size(shape, 1), 2, size(shape, 3))
-    integer :: at, i, j, k, p
+    integer :: i, j, k, p
 
     do p = 1, size(grid%pin_mass)
       if (grid%pin_mass(p) <= 0.0_wp) cycle
@@ -523,17 +510,11 @@ contains
         end do
         call derivatives(plan, motion(:, :, i), first(:, :, i))
       end do
-      do j = 1, size(shape, 3)
-        do i = 1, size(shape, 3)
-          at = (j - 1)*size(shape, 3) + i
-          sums(:, at, of_mass) = sums(:, at, of_mass) + grid%pin_mass(p)* &
-            products_of_rows(motion(:, :, i), motion(:, :, j))
-          sums(:, at, of_g) = sums(:, at, of_g) + grid%pin_mass(p)* &
-            products_of_rows(motion(:, :, i), first(:, :, j))
-          sums(:, at, of_w) = sums(:, at, of_w) + grid%pin_mass(p)* &
-            products_of_rows(first(:, :, i), first(:, :, j))
-        end do
-      end do
+      motion = sqrt(grid%pin_mass(p))*motion
+      first = sqrt(grid%pin_mass(p))*first
+      call add_products(motion, motion, sums(:, :, of_mass))
+      call add_products(motion, first, sums(:, :, of_g))
+      call add_products(first, first, sums(:, :, of_w))
     end do
   end subroutine add_pins
 
@@ -827,27 +808,37 @@ contains
     real(wp), intent(in) :: speed                  !! ω2 [rad/s]
     type(slow_mode_t), intent(inout) :: modes(:)
 
-    complex(wp) :: shape(motion%steps, motion%number)
-    real(wp) :: product(motion%steps), form(2)
-    integer :: at, c, i, j, k, m
+    !> Of all modes, real and imaginary parts: at a step, z there
+    real(wp) :: state(2*motion%number, 2, size(modes)), z(motion%number, 2, size(modes))
+    real(wp), dimension(motion%number, 2*size(modes)) :: product
+    real(wp) :: form(2, size(modes))
+    integer :: c, i, k, m
 
     m = motion%number
-    do k = 1, size(modes)
-      shape = slow_mode_shape(motion, modes(k))
-      form = 0.0_wp
-      do j = 1, m
-        do i = 1, m
-          at = (j - 1)*m + i
-          product = real(conjg(shape(:, i))*shape(:, j))
-          do c = 1, 2
-            form(c) = form(c) + sum(product*basis%form(:, at, c))
-          end do
+    do i = 1, size(modes)
+      state(:, 1, i) = real(modes(i)%start)
+      state(:, 2, i) = aimag(modes(i)%start)
+    end do
+    form = 0.0_wp
+    do k = 1, motion%steps
+      do i = 1, size(modes)
+        z(:, :, i) = parts_of_product(exp(-modes(i)%exponent*two_pi*(k - 1)/motion%steps), &
+          state(:m, 1, i), state(:m, 2, i))
+      end do
+      do c = 1, 2
+        product = matmul(reshape(basis%form(k, :, c), [m, m]), reshape(z, [m, 2*size(modes)]))
+        do i = 1, size(modes)
+          form(c, i) = form(c, i) + sum(z(:, :, i)*product(:, 2*i - 1:2*i))
         end do
       end do
-      form = form/motion%steps
-      modes(k)%shape_frequency = sqrt(form(2)/form(1))
-      modes(k)%action = speed*motion%scale*aimag(dot_product(modes(k)%start(:m), &
-        modes(k)%start(m + 1:)))/sqrt(form(1)*form(2))
+      state = reshape(matmul(motion%transfer(:, :, k), reshape(state, [2*m, 2*size(modes)])), &
+        shape(state))
+    end do
+    form = form/motion%steps
+    modes%shape_frequency = sqrt(form(2, :)/form(1, :))
+    do i = 1, size(modes)
+      modes(i)%action = speed*motion%scale*aimag(dot_product(modes(i)%start(:m), &
+        modes(i)%start(m + 1:)))/sqrt(form(1, i)*form(2, i))
     end do
   end subroutine add_shape_frequencies
 
@@ -858,12 +849,14 @@ contains
     type(slow_mode_t), intent(in) :: mode
     complex(wp) :: shape(motion%steps, motion%number)
 
-    complex(wp) :: state(2*motion%number)
+    real(wp) :: state(2*motion%number, 2)
     integer :: k
 
-    state = mode%start
+    state(:, 1) = real(mode%start)
+    state(:, 2) = aimag(mode%start)
     do k = 1, motion%steps
-      shape(k, :) = exp(-mode%exponent*two_pi*(k - 1)/motion%steps)*state(:motion%number)
+      shape(k, :) = exp(-mode%exponent*two_pi*(k - 1)/motion%steps)* &
+        cmplx(state(:motion%number, 1), state(:motion%number, 2), wp)
       state = matmul(motion%transfer(:, :, k), state)
     end do
   end function slow_mode_shape
