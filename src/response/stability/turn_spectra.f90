@@ -23,8 +23,11 @@ module turn_spectra
   !> Orders of the second level above those of the first; its samples are half as many more.
   integer, parameter :: orders_above = 2
 
-  !> Slow coordinates beside those of the modes wanted, and at least.
+  !> Slow coordinates beside those of the modes wanted, and at least; and all deformations up to so
+  !! many times the frequency of these: alike links have as many alike ones, and without some of
+  !! them none of their vibrations is found well.
   integer, parameter :: slow_above = 5, least_slow = 8
+  real(wp), parameter :: far_above = 5.0_wp
 
   !> Stages of the collocation of slow motions.
   integer, parameter :: usual_stages = 4
@@ -87,7 +90,12 @@ contains
     integer, intent(in) :: modes
     integer :: number
 
-    number = min(grid%unknowns, max(modes + slow_above, least_slow))
+    real(wp) :: square(grid%unknowns)
+
+    square = own_squares(grid)
+    square = square(ascending_order(-square))
+    number = min(grid%unknowns, max(modes + slow_above, least_slow, &
+      count(square*far_above**2 > square(min(modes, size(square))))))
   end function slow_number
 
   !> Finds or makes two levels, with their slow coordinates.
