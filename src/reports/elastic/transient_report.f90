@@ -2,7 +2,7 @@
 module transient_report
   use constants, only: degree
   use kinds, only: wp
-  use models, only: has_law, model_t, report_number
+  use models, only: drives_length, has_law, model_t, report_number
   use number_text, only: number_width
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, report_record_t, speed_table_t
@@ -103,7 +103,8 @@ contains
           if (model%ramp > 0.0_wp) words = "crank: from rest with constant acceleration for "// &
             in_words(model%ramp, dimension_time, model%units, 9)//", then at constant speed"
           if (has_law(model)) words = "crank: by the law '"//model%drives(1)%law%text//"'"
-          call append_string(notes, words//"; its angle continues past whole turns")
+          if (.not. drives_length(model)) words = words//"; its angle continues past whole turns"
+          call append_string(notes, words)
           call append_string(notes, damping_note(variant))
           if (model%without%keyword%line > 0) call append_string(notes, without_note(variant))
           call append_string(notes, "error: estimated, relative to the largest value of the "// &

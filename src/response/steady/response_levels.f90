@@ -1,6 +1,7 @@
 !> Grids of a turn with what periodic solutions on them need, made when a speed needs them: speeds,
 !! reports of the response and of stability share them.
 module response_levels
+  use crank_laws, only: crank_range_t, positions_of
   use body_lumps, only: pieces_of
   use deformation_model, only: deformation_model_t, new_deformation_model
   use errors, only: error_t
@@ -121,16 +122,18 @@ contains
   !> The links' own deformations of an order.
   !!
   !! Errors: own modes of a link could not be found.
-  subroutine new_order_model(structure, order, store, model, error)
+  subroutine new_order_model(structure, order, store, model, error, range)
     class(structure_t), intent(in) :: structure        !! linkage and beams
     integer, intent(in) :: order                       !! highest polynomial degree
     type(link_store_t), intent(inout) :: store         !! links decomposed earlier
     type(deformation_model_t), intent(out) :: model
     type(error_t), allocatable, intent(out) :: error   !! why there is none
+    type(crank_range_t), intent(in), optional :: range !! positions that it is for; absent: a turn
 
     type(linkage_t) :: linkage
+    type(crank_range_t) :: covered
     type(link_degrees_t), allocatable :: degrees(:)
-    integer :: b, i, n, pieces, across
+    integer :: b, n, pieces, across
 
     linkage = vibrating_linkage(structure)
     n = size(linkage%bodies)
@@ -148,7 +151,8 @@ contains
     call new_deformation_model(linkage, vibrating_beams(structure), spread(0, 1, n), spread(order, &
       1, n), spread(.false., 1, n), model, error, store, degrees, structure%elastic%held)
     if (allocated(error)) return
-    call set_border(structure, [((360.0_wp*i)/border_positions, i=0, border_positions - 1)], model)
+    if (present(range)) covered = range
+    call set_border(structure, positions_of(covered, border_positions), model)
   end subroutine new_order_model
 
   !> Makes the slow coordinates of a level, unless they are there.

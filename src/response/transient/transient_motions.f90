@@ -69,7 +69,7 @@ contains
     integer :: first, i, k, slot
 
     rule = new_radau_collocation(stages)
-    call new_path_grid(structure, model, stages*substeps, grid, error)
+    call new_path_grid(structure, model, stages*substeps, grid, error, law%range)
     if (allocated(error)) return
     allocate (motion%state(size(start), size(time)))
     state%value = start
@@ -140,7 +140,8 @@ contains
       real(wp), intent(in) :: change !! [rad/s]
 
       if (abs(change) <= rounding*abs(speed) .or. abs(change) <= tiny(change)) return
-      if (.not. allocated(here%first)) call new_path_grid(structure, model, 1, here, error)
+      if (.not. allocated(here%first)) call new_path_grid(structure, model, 1, here, &
+        error, law%range)
       if (.not. allocated(error)) call place_grid(structure, [crank], here, error)
       if (allocated(error)) return
       call find_motion_matrices(here, matrices_here)

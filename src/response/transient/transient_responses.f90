@@ -8,7 +8,8 @@
 module transient_responses
   use beam_mesh, only: beam_t
   use constants, only: two_pi
-  use crank_laws, only: constant_from, crank_law_t, crank_motion, time_of_turns
+  use crank_laws, only: constant_from, crank_law_t, crank_motion, crank_range_t, range_of, &
+    time_of_turns
   use deformation_model, only: deformation_model_t
   use errors, only: error_of_numerics, error_t, set_error
   use excited_vibrations, only: excited_vibration_t, find_excited_vibrations, missed_by_steps
@@ -16,7 +17,7 @@ module transient_responses
   use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
-  use linkages, only: linkage_t
+  use linkages, only: gives_angle, linkage_t
   use part_requests, only: join_largest, request_of_parts
   use path_grids, only: new_path_grid, place_grid
   use response_levels, only: damping_of, new_order_model
@@ -66,6 +67,9 @@ module transient_responses
   !> A quantity smaller than this beside what goes with it is taken for zero by its nature.
   real(wp), parameter :: by_nature = 1.0e-3_wp
 
+  !> Derivatives need a way of this share of the longest link where a length is driven.
+  real(wp), parameter :: least_share = 0.01_wp
+
   !> Instants whose places are found together.
   integer, parameter :: at_a_time = 128
 
@@ -93,6 +97,10 @@ contains
       if (was_interrupted()) exit
       law = crank_law_t(request%crank, request%response%speed(k), request%ramp)
       if (allocated(request%program)) law%program = request%program
+      if (.not. gives_angle(structure%linkage%drives(1))) then
+        law%range%unit = 1.0_wp
+        law%range%least = least_share*maxval(structure%linkage%bodies%length)
+      end if
       call find_transient(structure, of_bodies, law, store, transient%at_speed(k))
       if (allocated(structure%elastic)) call join_largest(structure%elastic, &
         size(structure%linkage%bodies), transient%at_speed(k)%deflection)
@@ -100,19 +108,22 @@ contains
   end subroutine find_transients
 
   !> Solutions one after another until two agree.
-  subroutine find_transient(structure, request, law, store, found)
+  subroutine find_transient(structure, request, of_crank, store, found)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
-    type(crank_law_t), intent(in) :: law
+    type(crank_law_t), intent(in) :: of_crank
     type(link_store_t), intent(inout) :: store
     type(speed_transient_t), intent(inout) :: found
 
+    type(crank_law_t) :: law
     type(deformation_model_t) :: model
     real(wp), allocatable :: older(:, :), before(:, :), series(:, :), missed(:)
     real(wp) :: accuracy, last_error
     integer :: round, idle, reached(2)
 
-    call find_instants(request, law, found)
+    call find_instants(request, of_crank, found)
+    law = of_crank
+    law%range = range_of(law, found%time)
     accuracy = request%response%accuracy
     found%order = first_order(accuracy)
     found%steps = 0
@@ -120,7 +131,7 @@ contains
     idle = 0
     last_error = huge(1.0_wp)
     do round = 1, most_rounds
-      call new_order_model(structure, found%order, store, model, found%error)
+      call new_order_model(structure, found%order, store, model, found%error, law%range)
       if (allocated(found%error)) return
       if (round == 1) found%steps = first_steps(structure, request, law, &
         found%crank(1), model)
@@ -230,7 +241,7 @@ contains
     integer :: wanted
 
     steps = 2
-    call grid_at(structure, model, crank, grid, reached)
+    call grid_at(structure, model, law%range, crank, grid, reached)
     if (.not. reached) return
     wanted = ceiling(interval_of(request, law)/(first_radians*sqrt(maxval(own_squares(grid)))))
     steps = max(steps, min(wanted, 1000))
@@ -253,16 +264,17 @@ contains
   end function work_of
 
   !> The terms at one crank angle.
-  subroutine grid_at(structure, model, crank, grid, reached)
+  subroutine grid_at(structure, model, range, crank, grid, reached)
     class(structure_t), intent(in) :: structure
     type(deformation_model_t), intent(in) :: model
+    type(crank_range_t), intent(in) :: range
     real(wp), intent(in) :: crank !! [deg]
     type(turn_grid_t), intent(out) :: grid
     logical, intent(out) :: reached !! the terms are there
 
     type(error_t), allocatable :: error
 
-    call new_path_grid(structure, model, 1, grid, error)
+    call new_path_grid(structure, model, 1, grid, error, range)
     if (.not. allocated(error)) call place_grid(structure, [crank], grid, error)
     reached = .not. allocated(error)
   end subroutine grid_at
@@ -285,7 +297,7 @@ contains
     real(wp), allocatable :: start(:), damping(:)
     real(wp) :: lack
 
-    call new_path_grid(structure, model, 1, grid, found%error)
+    call new_path_grid(structure, model, 1, grid, found%error, law%range)
     if (allocated(found%error)) return
     damping = damping_of(request%response%damping, grid)
     call find_start(structure, request, law, found%order, grid, store, start, found%error, lack)
@@ -300,8 +312,8 @@ contains
     found%taken = found%taken + motion%taken
     if (allocated(found%error) .or. was_interrupted()) return
     found%least_error = rounding + of_tail*grid%tail + safety*lack
-    call find_series(structure, request, found%crank, model, motion, series, found%deflection, &
-      found%error)
+    call find_series(structure, request, law%range, found%crank, model, motion, series, &
+      found%deflection, found%error)
     if (allocated(found%error)) return
     missed = missed_by_steps(vibration, found%time, found%steps, stages, size(series, 2))
 
@@ -333,9 +345,11 @@ contains
   end subroutine solve_once
 
   !> All quantities at all instants, some instants at a time.
-  subroutine find_series(structure, request, crank, model, motion, series, deflection, error)
+  subroutine find_series(structure, request, range, crank, model, motion, series, deflection, &
+    error)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
+    type(crank_range_t), intent(in) :: range
     real(wp), intent(in) :: crank(:) !! (instants) [deg]
     type(deformation_model_t), intent(in) :: model
     type(transient_motion_t), intent(in) :: motion
@@ -349,7 +363,7 @@ contains
     integer :: at, block, i, n
 
     block = min(at_a_time, size(crank))
-    call new_path_grid(structure, model, block, grid, error)
+    call new_path_grid(structure, model, block, grid, error, range)
     if (allocated(error)) return
     allocate (deflection(size(grid%integrals)), source=0.0_wp)
     do at = 1, size(crank), block
@@ -414,17 +428,22 @@ contains
     real(wp), intent(out) :: strain(:)       !! (gauges)
 
     type(linkage_t) :: linkage
-    real(wp) :: largest(size(series, 2)), length, least, tension, bend
+    real(wp) :: largest(size(series, 2)), far(size(displacement)), least, tension, bend
     integer :: first, i
 
     linkage = vibrating_linkage(structure)
     largest = maxval(abs(series), dim=1)
     do i = 1, size(displacement)
       first = of_point*(i - 1) + 1
-      length = sqrt(maxval(series(:, first)**2 + series(:, first + 1)**2))
-      displacement(i) = max(norm2(change(first:first + 1))/max(length, tiny(1.0_wp)), change(first &
-        + 2)/max(largest(first + 2), by_nature*length/linkage%bodies(request%response%points(i)% &
-        body)%length, tiny(1.0_wp)))
+      far(i) = sqrt(maxval(series(:, first)**2 + series(:, first + 1)**2))
+    end do
+    ! What the drive holds does not move but for rounding.
+    far = max(far, by_nature**2*maxval([0.0_wp, far]), tiny(1.0_wp))
+    do i = 1, size(displacement)
+      first = of_point*(i - 1) + 1
+      displacement(i) = max(norm2(change(first:first + 1))/far(i), change(first + 2)/ &
+        max(largest(first + 2), by_nature*far(i)/linkage%bodies(request%response%points(i)% &
+        body)%length))
     end do
     do i = 1, size(strain)
       first = of_point*size(displacement) + of_gauge*(i - 1) + 1

@@ -1,12 +1,14 @@
-!> The terms of the equations of motion at crank angles anywhere: of a crank and dyads from closed
-!! forms, so that the crank need not turn fully; of a linkage in parts from their harmonics over a
-!! turn, since its border unknowns are smooth functions of the crank angle only as a whole.
+!> The terms of the equations of motion at crank angles anywhere, which need not turn fully: of a
+!! crank and dyads from closed forms, of a linkage in parts from their series over the positions of
+!! the motion, since its border unknowns are smooth functions of them only as a whole.
 module path_grids
+  use chebyshev_series, only: chebyshev_coefficients, chebyshev_value
   use chord_slopes, only: find_chord_slopes
   use constants, only: degree
+  use crank_laws, only: crank_range_t, share_of
   use deformation_model, only: deformation_model_t
   use errors, only: error_of_numerics, error_t, set_error
-  use fourier_transform, only: close_fourier, coefficients_of, derivatives, fourier_plan_t, &
+  use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, &
     open_fourier, value_at
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients
@@ -14,15 +16,18 @@ module path_grids
   use pin_displacements, only: chords_t, find_chords
   use poses, only: find_pose, pose_t
   use structures, only: structure_t
-  use turn_grids, only: new_turn_grid, number_border, start_grid, take_chord, take_pose, turn_grid_t
+  use turn_grids, only: find_slope, new_turn_grid, number_border, start_grid, take_chord, &
+    take_pose, turn_grid_t
   implicit none (type, external)
   private
 
   public :: new_path_grid, place_grid
 
-  !> Samples of a turn, until the highest eighth of the harmonics of all terms are below a share of
-  !! the largest term of their kind; above the second nothing is found.
+  !> Samples of a turn, and how many times as many as of a part of the way, until the highest eighth
+  !! of the coefficients of all terms are below a share of the largest term of their kind; above the
+  !! second share nothing is found.
   integer, parameter :: turn_samples(*) = [64, 128, 256, 512, 1024]
+  integer, parameter :: way_by_turn = 4
   real(wp), parameter :: enough = 1.0e-13_wp, most = 1.0e-9_wp
 
   !> Terms of one kind.
@@ -36,15 +41,16 @@ contains
   !> Room for the terms at crank angles anywhere, which `place_grid` gives.
   !!
   !! Errors, of a linkage in parts: those of `new_turn_grid`; its terms have too many harmonics.
-  subroutine new_path_grid(structure, model, samples, grid, error)
+  subroutine new_path_grid(structure, model, samples, grid, error, range)
     class(structure_t), intent(in) :: structure    !! linkage and beams
     type(deformation_model_t), intent(in) :: model !! own deformations of its bodies
     integer, intent(in) :: samples                 !! crank angles
     type(turn_grid_t), intent(out) :: grid         !! for `place_grid`
     type(error_t), allocatable, intent(out) :: error
+    type(crank_range_t), intent(in), optional :: range !! positions between them; absent: a turn
 
     if (allocated(structure%elastic)) then
-      call find_harmonics(structure, model, samples, grid, error)
+      call find_series(structure, model, samples, grid, error, range)
       return
     end if
     call start_grid(structure%linkage, model, samples, grid)
@@ -66,9 +72,13 @@ contains
 
     integer :: k
 
-    if (allocated(grid%harmonics)) then
+    if (allocated(grid%series)) then
       do k = 1, size(crank)
-        call take_terms(value_at(grid%harmonics, modulo(crank(k), 360.0_wp)*degree), k, grid)
+        if (grid%range%is_turn) then
+          call take_terms(value_at(grid%series, modulo(crank(k), 360.0_wp)*degree), k, grid)
+        else
+          call take_terms(chebyshev_value(grid%series, share_of(grid%range, crank(k))), k, grid)
+        end if
       end do
     else
       call place_dyads(structure%linkage, crank, grid, error)
@@ -99,29 +109,37 @@ contains
     end do
   end subroutine place_dyads
 
-  !> Harmonics of all terms of a linkage in parts, from as many samples of a turn as they need.
-  subroutine find_harmonics(structure, model, samples, grid, error)
+  !> Series of all terms of a linkage in parts, from as many samples as they need: harmonics of a
+  !! turn, or Chebyshev polynomials of a part of the way.
+  subroutine find_series(structure, model, samples, grid, error, range)
     class(structure_t), intent(in) :: structure
     type(deformation_model_t), intent(in) :: model
     integer, intent(in) :: samples
     type(turn_grid_t), intent(out) :: grid
     type(error_t), allocatable, intent(out) :: error
+    type(crank_range_t), intent(in), optional :: range
 
     type(fourier_plan_t) :: plan
     real(wp), allocatable :: terms(:, :), coefficients(:, :)
     real(wp) :: tail, last
-    integer :: i
+    integer :: i, n
 
     last = huge(last)
     do i = 1, size(turn_samples)
-      call new_turn_grid(structure, model, turn_samples(i), grid, error)
+      n = turn_samples(i)
+      if (present(range)) n = merge(n, n/way_by_turn, range%is_turn)
+      call new_turn_grid(structure, model, n, grid, error, range=range)
       if (allocated(error)) return
-      call open_fourier(turn_samples(i), plan)
-      if (allocated(grid%weighted)) call add_slopes(plan, grid)
+      if (allocated(grid%weighted)) call add_slopes(grid)
       terms = terms_of(grid)
-      allocate (coefficients, mold=terms)
-      call coefficients_of(plan, terms, coefficients)
-      call close_fourier(plan)
+      if (grid%range%is_turn) then
+        allocate (coefficients, mold=terms)
+        call open_fourier(n, plan)
+        call coefficients_of(plan, terms, coefficients)
+        call close_fourier(plan)
+      else
+        coefficients = chebyshev_coefficients(terms)
+      end if
       tail = tail_of(kinds_of(grid), coefficients)
       ! More samples do not help against rounding.
       if (tail <= enough .or. i == size(turn_samples) .or. (tail <= most .and. tail > &
@@ -130,25 +148,24 @@ contains
       deallocate (coefficients)
     end do
     if (tail > most) then
-      call set_error(error, error_of_numerics, "the motion of the links over a turn of the "// &
-        "crank has too many harmonics: a dead point is near")
+      call set_error(error, error_of_numerics, "the motion of the links changes too fast with "// &
+        "that of the first drive: a dead point is near")
       return
     end if
     grid%tail = tail
-    call move_alloc(coefficients, grid%harmonics)
+    call move_alloc(coefficients, grid%series)
     call resize(grid, samples)
-  end subroutine find_harmonics
+  end subroutine find_series
 
   !> d/dθ2 of the deformations.
-  subroutine add_slopes(plan, grid)
-    type(fourier_plan_t), intent(in) :: plan
+  subroutine add_slopes(grid)
     type(turn_grid_t), intent(inout) :: grid
 
     integer :: i
 
     allocate (grid%weighted_slope, mold=grid%weighted)
     do i = 1, grid%border
-      call derivatives(plan, grid%weighted(:, :, i), grid%weighted_slope(:, :, i))
+      call find_slope(grid, grid%weighted(:, :, i), grid%weighted_slope(:, :, i))
     end do
   end subroutine add_slopes
 

@@ -15,7 +15,9 @@ module turn_grids
   use band_matrix, only: full_band
   use body_lumps, only: lump_offsets
   use border_rows, only: row_spring
+  use chebyshev_series, only: chebyshev_slopes
   use coordinates, only: coordinate_rate
+  use crank_laws, only: crank_range_t, half_of, positions_of
   use deformation_model, only: deformation_model_t
   use elastic_linkages, only: elastic_linkage_t
   use dense_eigensolver, only: solve_dense
@@ -42,7 +44,7 @@ module turn_grids
   private
 
   public :: turn_grid_t, damper_t, rate_case, new_turn_grid, start_grid, number_border, take_pose, &
-    take_chord, moves, sense_of
+    take_chord, moves, sense_of, find_slope
 
   !> Positions of a turn at which deformations are tried as unknowns, and turns until these are
   !! taken for good.
@@ -67,6 +69,7 @@ module turn_grids
     integer :: samples = 0   !! crank angles 0, 360°/n, …
     logical :: backwards = .false. !! the crank turns clockwise: crank angles 0, −360°/n, …, and
                                    !! derivatives, rates and loads per α2 are with respect to −θ2
+    type(crank_range_t) :: range !! positions that it is for
     integer :: unknowns = 0
     integer :: border = 0    !! first unknowns: rotations of held ends, elongations
     type(deformation_model_t) :: model
@@ -84,8 +87,9 @@ module turn_grids
     type(damper_t), allocatable :: dampers(:)
     integer :: cases = case_count          !! load cases, that of dampers included
     real(wp), allocatable :: weighted_slope(:, :, :) !! d/dθ2 of `weighted`; of `path_grids` only
-    !> Of a linkage in parts, of `path_grids`: (samples of a turn, terms) coefficients of all terms
-    real(wp), allocatable :: harmonics(:, :)
+    !> Of a linkage in parts, of `path_grids`: (samples of the range, terms) coefficients of all
+    !! terms
+    real(wp), allocatable :: series(:, :)
     real(wp) :: tail = 0.0_wp !! the highest of these, beside the size of their kind
     !> What moves with the material of pieces between the end of a link and a block; not allocated:
     !! all parts keep their lengths
@@ -130,18 +134,23 @@ contains
   !!
   !! Errors: the crank cannot reach one of the angles; the parts and springs do not determine the
   !! displacements; there are more of them than do, and no choice among them serves at all angles.
-  subroutine new_turn_grid(structure, model, samples, grid, error, backwards)
+  subroutine new_turn_grid(structure, model, samples, grid, error, backwards, range)
     class(structure_t), intent(in) :: structure      !! linkage and beams
     type(deformation_model_t), intent(in) :: model   !! own deformations of its bodies
     integer, intent(in) :: samples                   !! crank angles
     type(turn_grid_t), intent(out) :: grid           !! complete unless `error` is allocated
     type(error_t), allocatable, intent(out) :: error !! why there is no grid
     logical, intent(in), optional :: backwards       !! the crank turns clockwise; absent: not
+    type(crank_range_t), intent(in), optional :: range !! positions that the grid is for, at
+                                                     !! `positions_of`; absent: a turn
 
     type(assembled_t) :: here
     type(pose_t) :: pose
+    real(wp) :: position(samples)
     integer :: k
 
+    if (present(range)) grid%range = range
+    position = positions_of(grid%range, samples)
     if (present(backwards)) grid%backwards = backwards
     call start_grid(vibrating_linkage(structure), model, samples, grid)
     if (allocated(structure%elastic)) then
@@ -151,7 +160,7 @@ contains
       call number_border(structure%linkage, grid)
     end if
     do k = 1, samples
-      call find_pose(structure%linkage, sense_of(grid)*(360.0_wp*(k - 1))/samples, pose, error)
+      call find_pose(structure%linkage, sense_of(grid)*position(k), pose, error)
       if (allocated(error)) return
       if (allocated(structure%elastic)) then
         call take_parts(structure, pose, k, here, grid, error)
@@ -238,7 +247,7 @@ contains
     if (.not. allocated(grid%weighted)) return
     n = size(here%border%numbers%rows)
     if (n == grid%border .and. all(grid%deformed(:n) > 0)) return
-    call choose_pivots(structure, model, here, error)
+    call choose_pivots(structure, grid%range, model, here, error)
     if (.not. allocated(error)) call find_rotation(structure, here, grid, error)
   end subroutine start_parts
 
@@ -314,12 +323,13 @@ contains
     type(pose_t) :: pose
     type(chords_t) :: chords
     real(wp) :: mass(grid%border, grid%border), unit(grid%border, grid%border), &
-      inverse(grid%border), functions(size(grid%chord, 2), grid%border)
+      inverse(grid%border), functions(size(grid%chord, 2), grid%border), position(pivot_positions)
     integer :: b, i, p
 
     mass = 0.0_wp
-    do i = 0, pivot_positions - 1
-      call find_pose(structure%linkage, (360.0_wp*i)/pivot_positions, pose, error)
+    position = positions_of(grid%range, pivot_positions)
+    do i = 1, pivot_positions
+      call find_pose(structure%linkage, position(i), pose, error)
       if (.not. allocated(error)) call place_parts(structure, grid%model, pose, here, error)
       if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
         here%model%links, here%pose, grid%border, 0, .false., here%border, chords, error)
@@ -602,29 +612,45 @@ contains
   subroutine find_slopes(grid)
     type(turn_grid_t), intent(inout) :: grid
 
-    type(fourier_plan_t) :: plan
     real(wp), allocatable :: second(:, :)
     integer :: b, i, p
 
     allocate (grid%chord_slope, mold=grid%chord)
     allocate (grid%pin_slope, mold=grid%pin)
-    call open_fourier(grid%samples, plan)
     do i = 1, grid%border
       do b = 1, size(grid%chord, 4)
-        call derivatives(plan, grid%chord(:, :, i, b), grid%chord_slope(:, :, i, b))
+        call find_slope(grid, grid%chord(:, :, i, b), grid%chord_slope(:, :, i, b))
       end do
       do p = 1, size(grid%pin, 3)
-        call derivatives(plan, grid%pin(:, :, p, i), grid%pin_slope(:, :, p, i))
+        call find_slope(grid, grid%pin(:, :, p, i), grid%pin_slope(:, :, p, i))
       end do
     end do
     if (allocated(grid%pieces)) then
       allocate (second, mold=grid%ratio)
-      call derivatives(plan, grid%ratio, grid%stretch, second)
+      call find_slope(grid, grid%ratio, grid%stretch, second)
       grid%stretch = grid%stretch/grid%ratio
       grid%stretch_slope = second/grid%ratio - grid%stretch**2
     end if
-    call close_fourier(plan)
   end subroutine find_slopes
+
+  !> Derivatives with respect to the position of the crank, over the positions of a grid.
+  subroutine find_slope(grid, values, slope, second)
+    type(turn_grid_t), intent(in) :: grid
+    real(wp), intent(in) :: values(:, :) !! (samples, functions)
+    real(wp), intent(out) :: slope(:, :) !! per rad or m
+    real(wp), intent(out), optional :: second(:, :) !! derivatives
+
+    type(fourier_plan_t) :: plan
+
+    if (grid%range%is_turn) then
+      call open_fourier(grid%samples, plan)
+      call derivatives(plan, values, slope, second)
+      call close_fourier(plan)
+    else
+      slope = chebyshev_slopes(values)/half_of(grid%range)
+      if (present(second)) second = chebyshev_slopes(slope)/half_of(grid%range)
+    end if
+  end subroutine find_slope
 
   !> To which bodies the border unknowns of a crank and dyads belong.
   pure subroutine number_border(linkage, grid)
@@ -664,20 +690,22 @@ contains
   !> Deformations that determine all others at every position: the border unknowns are then smooth
   !! functions of the crank angle. From a position on where they do not, others are taken, until a
   !! whole turn needs no more.
-  subroutine choose_pivots(structure, model, here, error)
+  subroutine choose_pivots(structure, range, model, here, error)
     class(structure_t), intent(in) :: structure
+    type(crank_range_t), intent(in) :: range !! positions that they are for
     type(deformation_model_t), intent(in) :: model
     type(assembled_t), intent(inout) :: here !! its border gets them
     type(error_t), allocatable, intent(out) :: error
 
     type(pose_t) :: pose
     type(chords_t) :: chords
+    real(wp) :: position(0:pivot_positions - 1)
     integer :: i, kept
 
     kept = 0
+    position = positions_of(range, pivot_positions)
     do i = 0, most_turns*pivot_positions - 1
-      call find_pose(structure%linkage, (360.0_wp*modulo(i, pivot_positions))/pivot_positions, &
-        pose, error)
+      call find_pose(structure%linkage, position(modulo(i, pivot_positions)), pose, error)
       if (.not. allocated(error)) call place_parts(structure, model, pose, here, error)
       if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
         here%model%links, here%pose, model%layout%border, model%layout%free, .false., here%border, &

@@ -8,7 +8,7 @@ module response_linkage_checks
   use full_turns, only: turns_fully
   use kinds, only: wp
   use mechanisms, only: mechanism_t
-  use models, only: drives_length, model_t, needs_response, steady_state_report
+  use models, only: drives_length, has_law, model_t, steady_state_report
   use reach_checks, only: interval_words, reachable_intervals
   use tokens, only: token_t
   implicit none (type, external)
@@ -37,6 +37,13 @@ contains
         model%reports(report)%keyword, "it is asked for here")
       return
     end if
+    if (drives_length(model) .and. steady_state_report(model) == 0 .and. &
+      .not. has_law(model)) then
+      call add_error(diagnostics, model%drives(1)%keyword, name//" follows a drive of a length "// &
+        "over its law, for it makes no turns; expected 'law=' on this card, with LAW and TIME", &
+        model%reports(report)%keyword, "it is asked for here")
+      return
+    end if
     if (allocated(mechanism%elastic)) then
       call check_running_blocks(model, mechanism, report, diagnostics)
       if (has_errors(diagnostics)) return
@@ -56,17 +63,10 @@ contains
     integer :: report
 
     report = steady_state_report(model)
-    motion = "the steady state"
-    if (report == 0 .and. needs_response(model) .and. allocated(mechanism%elastic)) then
-      ! Border unknowns are smooth functions of the angle over a whole turn.
-      report = findloc(model%reports%kind%response, .true., dim=1)
-      motion = "the motion"
-      if (present(reach)) motion = "the motion, with springs or dampers,"
-    end if
     if (report == 0) return
     if (turns_fully(mechanism%linkage, through=.false.)) return
     place = model%reports(report)%keyword
-    motion = "; REPORT "//trim(model%reports(report)%kind%name)//" is on "//motion//" of a "// &
+    motion = "; REPORT "//trim(model%reports(report)%kind%name)//" is on the steady state of a "// &
       "crank that turns fully, and there is none"
     if (.not. present(reach)) motion = motion//"; frequencies at positions do without"
     if (drives_length(model)) then
