@@ -512,7 +512,7 @@ contains
     call begin_variant_run(run, model)
     if (block > 0) call divide_positions(model, positions_kept(model), &
       run%results%mechanism%linkage, threads, run%blocks)
-    call help_with_variant(run, threads, max(1, block))
+    call help_with_variant(run, threads, max(1, block), stream)
   end subroutine help_with_blocks
 
   !> Writes the texts beside the tables, and puts all files in place. Errors: the run was

@@ -1,5 +1,6 @@
 !> Computes one variant of a deck; a deck without VARY has just one.
 module variant_runs
+  use byte_streams, only: byte_stream_t
   use drawn_cranks, only: starting_cranks
   use errors, only: error_of_reach, error_t
   use home_ranges, only: find_home_range
@@ -107,14 +108,15 @@ contains
   end subroutine compute_block
 
   !> Helps the leader with the blocks of frequencies that it has announced.
-  subroutine help_with_variant(run, threads, block)
+  subroutine help_with_variant(run, threads, block, stream)
     type(variant_run_t), intent(inout) :: run !! begun, with its blocks if there are several
     integer, intent(in) :: threads            !! number to use
     integer, intent(in) :: block              !! number, from 1
+    type(byte_stream_t), intent(inout) :: stream !! of the announcement, as far as it is read
 
     run%threads = threads
     call place_block(run, block)
-    call help_with_sweep(run)
+    call help_with_sweep(run, stream)
   end subroutine help_with_variant
 
   !> Finds all positions, block by block, and what is to be known of all before any row is written:

@@ -2,7 +2,7 @@
 module study_of_frequencies
   use byte_streams, only: byte_stream_t
   use frequency_memory, only: add_frequency_memory
-  use frequency_study, only: begin_sweep, block_count, block_of, finish_sweep, missed_states, &
+  use frequency_study, only: add_work, begin_sweep, block_count, block_of, missed_states, &
     most_attempts, solve_block
   use interruption, only: was_interrupted
   use jobs, only: job_t
@@ -26,6 +26,7 @@ module study_of_frequencies
   use sweeps, only: has_result
   use tasks, only: run_tasks
   use text, only: plural, to_string
+  use text_buffer, only: append_text
   use units, only: from_si, unit_t
   use variant_results, only: variant_results_t
   use vibration_models, only: by_band, by_orders, mode_request_t, new_vibration_models, &
@@ -42,11 +43,12 @@ module study_of_frequencies
   !! not reached.
   integer, parameter :: of_divergence = 1, of_deflection = 2, of_accuracy = 3
 
-  !> The blocks of a sweep.
+  !> The blocks of an attempt of a sweep.
   type, extends(job_t) :: sweep_job_t
     type(variant_run_t), pointer :: variant => null() !! with the positions
     type(vibration_models_t) :: models                !! that serve the states
-    integer, allocatable :: states(:)                 !! of the sweep, by crank angle
+    integer :: attempt = 1                            !! number
+    integer, allocatable :: states(:)                 !! that are solved in it, by crank angle
     integer :: before = 0                             !! blocks before those of these states
     integer :: solved = 0                             !! states
   contains
@@ -72,60 +74,91 @@ contains
     type(variant_run_t), intent(inout), target :: run
 
     type(sweep_job_t) :: job
-    integer :: attempt, made
+    integer :: made
 
-    associate (positions => run%results%found%positions, sweep => run%results%found%sweep, &
-        store => run%store)
+    associate (positions => run%results%found%positions, sweep => run%results%found%sweep)
       call begin_job(job, run)
-      if (allocated(run%announcement)) job%announcement = run%announcement
-      made = store%made
-      do attempt = 1, most_attempts
-        if (attempt == 1) then
-          call take_first_models(run, store, job)
-        else
-          call new_vibration_models(sweep%structure, positions, job%states, &
-            sweep%request, sweep%request%accuracy, store, job%models, sweep%counts, run%error)
-        end if
+      made = run%store%made
+      do
+        call begin_attempt(job, run, run%store)
         if (allocated(run%error)) return
-        job%solved = positions%before + size(positions%states) - size(job%states)
+        call announce_attempt(job, run)
         call run_tasks(job, job%before + 1, job%before + block_count(size(job%states)), &
-          threads_of(run), run%journal, merge(run%group, -1, attempt == 1))
-        ! Other ranks do not know which positions are solved again. They are few.
-        if (allocated(job%announcement)) deallocate (job%announcement)
+          threads_of(run), run%journal, run%group)
+        if (was_interrupted()) return
+        call add_work(sweep, job%states)
         job%states = missed_states(sweep, job%states)
-        if (size(job%states) == 0 .or. was_interrupted()) exit
+        if (size(job%states) == 0 .or. job%attempt == most_attempts) exit
+        job%attempt = job%attempt + 1
       end do
-      if (was_interrupted()) return
-      sweep%counts%link_models = store%made - made
-      call finish_sweep(sweep)
+      sweep%counts%link_models = run%store%made - made
       call name_links(run%results)
       call widen_sweep_extremes(positions, sweep, run%results%found%extremes)
     end associate
   end subroutine compute_frequencies
 
-  !> The models with which all positions are solved first, of orders chosen at some of them. Those
-  !! of a list that comes in blocks serve all blocks.
-  subroutine take_first_models(run, store, job)
-    type(variant_run_t), intent(inout) :: run         !! its error is set without models
+  !> Makes the models of an attempt: orders are chosen at some of its states. In the first one
+  !! those of a list that comes in blocks serve all blocks.
+  subroutine begin_attempt(job, run, store)
+    type(sweep_job_t), intent(inout) :: job   !! with the attempt and its states
+    type(variant_run_t), intent(inout) :: run !! its error is set without models
     type(link_store_t), intent(inout) :: store
-    type(sweep_job_t), intent(inout) :: job           !! begun
 
-    associate (structure => run%results%found%sweep%structure, &
-        sweep => run%results%found%sweep)
-      if (allocated(run%models)) then
+    associate (positions => run%results%found%positions, sweep => run%results%found%sweep)
+      job%before = (job%attempt - 1)*block_count(states_of(run)) + block_count(positions%before)
+      job%solved = positions%before + size(positions%states) - size(job%states)
+      if (job%attempt == 1 .and. allocated(run%models)) then
         job%models = run%models
-      else if (allocated(run%blocks)) then
-        call new_vibration_models(structure, run%blocks%sample, &
+      else if (job%attempt == 1 .and. allocated(run%blocks)) then
+        call new_vibration_models(sweep%structure, run%blocks%sample, &
           by_crank_angle(run%blocks%sample), sweep%request, sweep%request%accuracy, store, &
           job%models, sweep%counts, run%error)
         run%models = job%models
       else
-        call new_vibration_models(structure, run%results%found%positions, job%states, &
-          sweep%request, sweep%request%accuracy, store, job%models, sweep%counts, run%error)
+        call new_vibration_models(sweep%structure, positions, job%states, sweep%request, &
+          sweep%request%accuracy, store, job%models, sweep%counts, run%error)
       end if
-      sweep%models = job%models
+      if (job%attempt == 1) sweep%models = job%models
     end associate
-  end subroutine take_first_models
+  end subroutine begin_attempt
+
+  !> States of the whole list.
+  pure integer function states_of(run)
+    type(variant_run_t), intent(in) :: run
+
+    states_of = size(run%results%found%sweep%results)
+    if (allocated(run%blocks)) states_of = size(run%blocks%first_alike)
+  end function states_of
+
+  !> Makes the words by which other ranks help with an attempt.
+  subroutine announce_attempt(job, run)
+    type(sweep_job_t), intent(inout) :: job !! at its attempt
+    type(variant_run_t), intent(in) :: run
+
+    type(byte_stream_t) :: announced
+
+    if (.not. allocated(run%announcement)) return
+    call append_text(announced%bytes, run%announcement)
+    call pass_attempt(announced, job)
+    job%announcement = announced%bytes%storage(:announced%bytes%length)
+  end subroutine announce_attempt
+
+  !> Passes the number of an attempt, and which states are solved again in it.
+  subroutine pass_attempt(stream, job)
+    type(byte_stream_t), intent(inout) :: stream
+    type(sweep_job_t), intent(inout) :: job !! with all states, if it is read
+
+    integer :: count, i
+
+    call stream%pass(job%attempt)
+    if (job%attempt == 1) return
+    count = size(job%states)
+    call stream%pass(count)
+    do i = 1, count
+      call stream%pass(job%states(i))
+    end do
+    job%states = job%states(:count)
+  end subroutine pass_attempt
 
   !> ARPACK serves one thread at a time: others would only wait.
   pure integer function threads_of(run)
@@ -151,22 +184,23 @@ contains
         run%results%found%sweep%structure = run%results%mechanism%structure_t
       end if
       job%states = by_crank_angle(positions)
-      job%before = block_count(positions%before)
     end associate
     job%variant => run
   end subroutine begin_job
 
   !> Helps the leader with the blocks of a sweep that it has announced: does all that comes before
   !! them, and then the blocks that it hands out.
-  subroutine help_with_sweep(run)
+  subroutine help_with_sweep(run, stream)
     type(variant_run_t), intent(inout), target :: run !! with positions
+    type(byte_stream_t), intent(inout) :: stream      !! that announces them
 
     type(sweep_job_t) :: job
     type(link_store_t) :: store
 
     call begin_job(job, run)
+    call pass_attempt(stream, job)
     ! An error is that of the leader too, who does not call for help then.
-    call take_first_models(run, store, job)
+    call begin_attempt(job, run, store)
     call help_with_tasks(job, threads_of(run))
   end subroutine help_with_sweep
 
@@ -218,12 +252,8 @@ contains
     class(sweep_job_t), intent(inout) :: self
     integer, intent(in) :: number
 
-    integer :: all
-
     self%solved = self%solved + size(block_of(self%states, number - self%before))
-    all = size(self%variant%results%found%sweep%results)
-    if (allocated(self%variant%blocks)) all = size(self%variant%blocks%first_alike)
-    call show_progress(self%variant%progress, self%solved, all)
+    call show_progress(self%variant%progress, self%solved, states_of(self%variant))
   end subroutine finish_block
 
   !> Speeds without frequencies at a position.

@@ -5,7 +5,7 @@ module frequency_study
   use interruption, only: was_interrupted
   use joint_study, only: joint_t
   use kinds, only: wp
-  use ledger, only: add_ledger, ledger_t
+  use ledger, only: add_ledger
   use linkages, only: linkage_t, normal_to
   use part_poses, only: place_parts_of
   use pose_types, only: pose_t
@@ -19,7 +19,7 @@ module frequency_study
   implicit none (type, external)
   private
 
-  public :: begin_sweep, solve_block, finish_sweep, block_count, block_of, missed_states
+  public :: begin_sweep, solve_block, add_work, block_count, block_of, missed_states
   public :: find_stations, find_displacements, link_of_part, frequency_values, damping_values
   public :: has_result, failure_at, most_attempts
 
@@ -71,11 +71,9 @@ contains
     type(positions_t), intent(in) :: positions     !! of the run
     type(vibration_models_t), intent(in) :: models !! for these states
     integer, intent(in) :: states(:)               !! numbers, by crank angle
-    type(sweep_t), intent(inout) :: sweep          !! results of these states are replaced, and
-                                                   !! their work is added to that done before
+    type(sweep_t), intent(inout) :: sweep          !! results of these states are replaced
 
     type(position_work_t) :: work
-    type(ledger_t) :: before
     integer :: i, k
 
     work = new_position_work(structure, models, sweep%request)
@@ -83,10 +81,8 @@ contains
       i = states(k)
       if (was_interrupted()) return
       if (allocated(positions%states(i)%error)) cycle
-      before = sweep%results(i)%counts
       call solve_position(structure, models, positions%states(i), sweep%request, &
         sweep%drawn(i, :), work, sweep%results(i))
-      call add_ledger(sweep%results(i)%counts, before)
     end do
   end subroutine solve_block
 
@@ -100,16 +96,17 @@ contains
     missed = pack(states, sweep%results(states)%order_error > sweep%request%accuracy)
   end function missed_states
 
-  !> Adds the work done at all positions to the counts of the sweep.
-  pure subroutine finish_sweep(sweep)
-    type(sweep_t), intent(inout) :: sweep !! with all results
+  !> Adds the work done at states to the counts of the sweep.
+  pure subroutine add_work(sweep, states)
+    type(sweep_t), intent(inout) :: sweep !! with results of these states
+    integer, intent(in) :: states(:)      !! numbers
 
     integer :: i
 
-    do i = 1, size(sweep%results)
-      call add_ledger(sweep%counts, sweep%results(i)%counts)
+    do i = 1, size(states)
+      call add_ledger(sweep%counts, sweep%results(states(i))%counts)
     end do
-  end subroutine finish_sweep
+  end subroutine add_work
 
   !> Frequencies [Hz] and their relative errors at a position and speed.
   pure function frequency_values(sweep, state, speed) result(values)
