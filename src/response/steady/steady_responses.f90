@@ -238,8 +238,6 @@ contains
     real(wp) :: relative_error
     integer :: k
 
-    ! The grillage is one of links between two pins.
-    if (allocated(structure%elastic)) return
     call find_out_of_plane_frequency(structure, frequency, relative_error, error)
     if (.not. allocated(frequency)) return
     do k = 1, size(response%at_speed)
