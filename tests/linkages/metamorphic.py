@@ -52,7 +52,7 @@ KINDS = {
     "gauges": {"axial_strain": "s", "bending_strain": "s", "moment": "rp", "axial_force": "s", "stress": "s"},
     "peaks": {"strain": "s", "stress": "s", "deflection": "s", "power": "s"},
     "torque": {"rigid": "p", "linear": "p", "quadratic": "p", "total": "p", "power": "s"},
-    "validity": {"deflection": "s", "load": "s", "distance": "s"},
+    "validity": {"deflection": "s", "load": "s", "out_of_plane": "s", "distance": "s"},
     "stability": {"turns": "s", "growth": "s", "signature": "w", "verdict": "w"},
     "campbell": {"least": "s", "mean": "s", "greatest": "s", "growth": "s", "verdict": "w"},
     "critical": {"excitation": "s", "amplitude": "s", "growth": "s"},
