@@ -13,6 +13,8 @@ module part_force_types
     real(wp), allocatable :: second_order(:, :, :) !! (border, border, cases) what blocks on guides
                                               !! and springs add to K_G [-]
     real(wp), allocatable :: border(:, :)     !! (border, cases) static solution; 0 of free motions
+    real(wp), allocatable :: work(:, :)       !! (border, cases) the same where nothing holds free
+                                              !! drives: work of the loads alone [√J]
     real(wp), allocatable :: guide(:, :)      !! (sliders, cases) force of the guide on the block,
                                               !! along the normal of its line [N]
     real(wp), allocatable :: weighted(:, :)   !! (rows, cases) forces of parts and springs in units

@@ -85,6 +85,7 @@ contains
           matmul(loads%moment(:, i), of_constraints%rotation) + work_on_ends(elastic, links, &
           of_constraints, loads%end_couple(:, :, i)) + carried_work(elastic, of_constraints, &
           loads%carried(:, :, i))
+        forces%work(:n, i) = work(:n)
         if (size(on_drives, 1) > 0) then
           held = held_by_drives(on_drives(:, :n), on_drives(:, n + 1:), work, compliance, &
             own_turns(linkage, elastic, links, pose, case, loads%end_couple(:, :, i), on_own))
@@ -121,6 +122,7 @@ contains
       any(loads%unit%occurs)), size(elastic%body), case_count), forces%second_order(border, &
       border, case_count), forces%guide(size(elastic%contact), case_count), &
       forces%spring(size(elastic%springs), case_count), forces%border(border, case_count), &
+      forces%work(border, case_count), &
       forces%weighted(size(numbers%rows), case_count), forces%constraint(numbers%constraints, &
       case_count), forces%drive(size(linkage%drives), case_count), source=0.0_wp)
   end subroutine make_room

@@ -224,7 +224,8 @@ contains
     integer :: i, n
 
     if (model%layout%free > 0) then
-      call set_error(error, error_of_dead_point, "the linkage moves freely, its drives at rest")
+      call set_error(error, error_of_dead_point, "the linkage moves freely beside the motion "// &
+        "of its crank: no SPRING holds a drive that is 'free'")
       return
     end if
     here = new_assembled(structure, model)
@@ -524,8 +525,7 @@ contains
       pose, coefficients, unit)
     do c = 1, case_count
       grid%second_order(k, :, :, c) = here%part_forces%second_order(:, :, c)
-      ! The static solution, since the stiffness is the unit matrix.
-      grid%load(k, :grid%border, c) = here%part_forces%border(:, c)
+      grid%load(k, :grid%border, c) = here%part_forces%work(:, c)
       do b = 1, size(grid%integrals)
         call add_own_loads(grid, b, k, inertia_work(here%elastic%linkage, grid, b, here%pose, &
           here%part_loads%unit%of_case(c)), grid%load(k, :, c))

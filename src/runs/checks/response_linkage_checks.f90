@@ -29,11 +29,10 @@ contains
 
     report = findloc(model%reports%kind%response, .true., dim=1)
     name = "REPORT "//trim(model%reports(report)%kind%name)
-    i = findloc(model%drives%is_free, .true., dim=1)
-    if (i > 0) then
-      call add_error(diagnostics, model%drives(i)%keyword, name//" is on a linkage whose "// &
-        "drives keep to their motion, and this one is free; expected no 'free'; REPORT motion "// &
-        "moves free drives, of rigid links, and frequencies are those of a position", &
+    if (model%drives(1)%is_free) then
+      call add_error(diagnostics, model%drives(1)%keyword, name//" is on a linkage whose first "// &
+        "drive keeps to its motion, and this one is free; expected no 'free'; REPORT motion "// &
+        "moves it, with rigid links, and frequencies are those of a position", &
         model%reports(report)%keyword, "it is asked for here")
       return
     end if
