@@ -3,10 +3,10 @@
 !!
 !! `y = X z` with X(θ) from subspace iterations on the mass matrix: the slow deformations (rotation
 !! of the clamped end, the lowest own modes of the links) and the deformations that their inertia
-!! causes. The matrices of z do not depend on the speed. At a speed the equation
-!! `(M z' + G z)' = (Gᵀ − C/ω) z' + (W − K/ω²) z + F/ω²` is solved by Gauss collocation, step after
-!! step, and closed to a periodic motion. It serves as an approximate inverse of the whole equation,
-!! and gives the multipliers of a turn.
+!! causes, perpendicular to each other at every angle. The matrices of z do not depend on the speed.
+!! At a speed the equation `(M z' + G z)' = (Gᵀ − C/ω) z' + (W − K/ω²) z + F/ω²` is solved by
+!! Gauss collocation, step after step, and closed to a periodic motion. It serves as an approximate
+!! inverse of the whole equation, and gives the multipliers of a turn.
 module slow_motions
   use constants, only: two_pi
   use elastic_equations, only: deformations_of, functions_of, mass_force, slopes_of, &
@@ -420,22 +420,59 @@ contains
     end do
   end subroutine add_axial
 
-  !> Scales X so that its slow rows are the unit matrix: X then changes smoothly over the turn.
+  !> X that changes smoothly over the turn: of all of its space that whose slow rows are the unit
+  !! matrix, then each column made perpendicular to those before and as long as 1. Where a slow row
+  !! has hardly any part in the space, such as that of a piece of a link that is very short there,
+  !! columns would else become long within few degrees.
   subroutine normalise(slow, shape, error)
     integer, intent(in) :: slow(:)
     real(wp), intent(inout) :: shape(:, :, :) !! (samples, unknowns, number)
     type(error_t), allocatable, intent(out) :: error
 
-    real(wp) :: inverse(size(slow), size(slow), size(shape, 1))
+    real(wp) :: scaling(size(slow), size(slow), size(shape, 1)), products(size(shape, 1), &
+      size(slow)**2)
     integer :: k
 
     do k = 1, size(shape, 1)
-      call invert(shape(k, slow, :), inverse(:, :, k))
+      call invert(shape(k, slow, :), scaling(:, :, k))
     end do
-    call multiply_by(inverse, shape)
-    if (any(abs(shape) > huge(1.0_wp))) call set_error(error, error_of_numerics, &
-      "the slow vibrations cannot be told from the fast ones")
+    call multiply_by(scaling, shape)
+    if (any(abs(shape) > huge(1.0_wp))) then
+      call set_error(error, error_of_numerics, &
+        "the slow vibrations cannot be told from the fast ones")
+      return
+    end if
+    products = 0.0_wp
+    call add_products(shape, shape, products)
+    do k = 1, size(shape, 1)
+      scaling(:, :, k) = perpendicular(reshape(products(k, :), [size(slow), size(slow)]))
+    end do
+    call multiply_by(scaling, shape)
   end subroutine normalise
+
+  !> Columns A so that those of X A are perpendicular and as long as 1, each of those of X up to its
+  !! own: Gram and Schmidt's, from XᵀX.
+  pure function perpendicular(product) result(a)
+    real(wp), intent(in) :: product(:, :)               !! XᵀX
+    real(wp) :: a(size(product, 1), size(product, 1))
+
+    real(wp) :: image(size(a, 1), size(a, 1)), share
+    integer :: i, j
+
+    a = 0.0_wp
+    image = product
+    do i = 1, size(a, 1)
+      a(i, i) = 1.0_wp
+      do j = 1, i - 1
+        share = dot_product(a(:j, j), image(:j, i))
+        a(:j, i) = a(:j, i) - share*a(:j, j)
+        image(:, i) = image(:, i) - share*image(:, j)
+      end do
+      share = sqrt(dot_product(a(:i, i), image(:i, i)))
+      a(:i, i) = a(:i, i)/share
+      image(:, i) = image(:, i)/share
+    end do
+  end function perpendicular
 
   !> Inverse of a small matrix.
   subroutine invert(matrix, inverse)
