@@ -31,11 +31,12 @@ module slow_motions
     slow_count, own_squares, slow_mode_t, slow_modes, slow_mode_shape, solve_slow_shifted, &
     frozen_matrices, add_shape_frequencies
 
-  !> Subspace iterations: the error of the lowest frequencies falls by the square of the ratio of
-  !! frequencies each time. As a block passes along a link, slow deformations of the piece before it
-  !! and of that behind it change places: after several iterations they do so within few degrees,
-  !! and followers of the motion between them are not small.
-  integer, parameter :: iterations = 3, iterations_with_pieces = 1
+  !> Subspace iterations at most: the error of the lowest frequencies falls by the square of the
+  !! ratio of frequencies each time. Where deformations change places over the turn, slow ones
+  !! becoming fast, each iteration makes them do so within fewer degrees: one whose highest quarter
+  !! of the harmonics has more than this share of X is not made.
+  integer, parameter :: iterations = 3
+  real(wp), parameter :: unresolved = 5.0e-3_wp
 
   !> Free motions that grow by more than this in a turn leave no digits of a periodic one; within
   !! the turn they may grow until numbers nearly overflow.
@@ -186,7 +187,7 @@ contains
     basis%square = own_squares(coarse)
     order = ascending_order(-basis%square)
     basis%square(order(:number)) = 0.0_wp
-    call find_shapes(coarse, order(:number), shape, error)
+    call find_shapes(coarse, coarse_plan, order(:number), shape, error)
     if (allocated(error)) return
     call find_matrices(coarse, coarse_plan, shape, basis%sums)
     call derivatives(coarse_plan, basis%sums(:, :, of_g), basis%sums(:, :, of_slope))
@@ -307,29 +308,49 @@ contains
     call add_products(shape, slope, sums(:, :, of_drift))
   end subroutine add_damped_products
 
-  !> X from subspace iterations on the mass matrix.
-  subroutine find_shapes(grid, slow, shape, error)
+  !> X from subspace iterations on the mass matrix, as many as the samples resolve.
+  subroutine find_shapes(grid, plan, slow, shape, error)
     type(turn_grid_t), intent(in) :: grid
+    type(fourier_plan_t), intent(in) :: plan           !! for its samples
     integer, intent(in) :: slow(:)                     !! numbers of the slow deformations
     real(wp), allocatable, intent(out) :: shape(:, :, :) !! (samples, unknowns, number)
     type(error_t), allocatable, intent(out) :: error
 
-    real(wp) :: product(grid%samples, grid%unknowns)
+    real(wp), allocatable :: next(:, :, :)
     integer :: i, k
 
     allocate (shape(grid%samples, grid%unknowns, size(slow)), source=0.0_wp)
     do i = 1, size(slow)
       shape(:, slow(i), i) = 1.0_wp
     end do
-    do k = 1, merge(iterations_with_pieces, iterations, allocated(grid%pieces))
+    do k = 1, iterations
+      allocate (next, mold=shape)
       do i = 1, size(slow)
-        call mass_force(grid, shape(:, :, i), product)
-        shape(:, :, i) = product
+        call mass_force(grid, shape(:, :, i), next(:, :, i))
       end do
-      call normalise(slow, shape, error)
+      call normalise(slow, next, error)
       if (allocated(error)) return
+      if (k > 1 .and. .not. is_resolved(plan, next)) exit
+      call move_alloc(next, shape)
     end do
   end subroutine find_shapes
+
+  !> Whether the samples resolve X.
+  function is_resolved(plan, shape) result(yes)
+    type(fourier_plan_t), intent(in) :: plan !! for the samples
+    real(wp), intent(in) :: shape(:, :, :)   !! (samples, unknowns, number)
+    logical :: yes
+
+    real(wp) :: coefficients(size(shape, 1), size(shape, 2))
+    integer :: i, n
+
+    n = size(shape, 1)
+    yes = .true.
+    do i = 1, size(shape, 3)
+      call coefficients_of(plan, shape(:, :, i), coefficients)
+      yes = yes .and. norm2(coefficients(n - n/4:, :)) <= unresolved*norm2(coefficients)
+    end do
+  end function is_resolved
 
   !> M, G, W, XᵀX and XᵀK_GX of the slow coordinates.
   subroutine find_matrices(grid, plan, shape, sums)
