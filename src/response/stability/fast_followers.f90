@@ -28,7 +28,8 @@ contains
   subroutine follower_products(grid, plan, shape, products)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan             !! for its samples
-    real(wp), intent(in) :: shape(:, :, :)               !! (samples, unknowns, number) X
+    real(wp), intent(in) :: shape(:, :, :)               !! (samples, unknowns, number) X, with XᵀX
+                                                         !! = 1
     real(wp), allocatable, intent(out) :: products(:, :, :) !! (parts × number, parts × number,
                                                             !! samples)
 
@@ -37,8 +38,7 @@ contains
     ! Products of transposes that are not copies take twice the time.
     real(wp), dimension(size(shape, 3), size(e, 1)) :: turned
     real(wp) :: x(size(e, 1), size(shape, 3)), left(size(e, 2), size(e, 1))
-    real(wp) :: gram(size(shape, 3), size(shape, 3)), share(size(shape, 3), parts*size(shape, 3))
-    integer :: pivot(size(shape, 3)), i, k, m, info
+    integer :: i, k, m
 
     m = size(shape, 3)
     do i = 1, m
@@ -56,11 +56,7 @@ contains
     do k = 1, size(shape, 1)
       x = shape(k, :, :)
       turned = transpose(x)
-      gram = matmul(turned, x)
-      share = matmul(turned, e(:, :, k))
-      call dgetrf(m, m, gram, m, pivot, info)
-      call dgetrs("N", m, parts*m, gram, m, pivot, share, m, info)
-      e(:, :, k) = e(:, :, k) - matmul(x, share)
+      e(:, :, k) = e(:, :, k) - matmul(x, matmul(turned, e(:, :, k)))
       left = transpose(e(:, :, k))
       products(:, :, k) = matmul(left, e(:, :, k))
     end do

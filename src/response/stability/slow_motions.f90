@@ -45,8 +45,8 @@ module slow_motions
   !> The slow coordinates over the turn, for any speed.
   type :: slow_basis_t
     integer :: number = 0
-    real(wp), allocatable :: shape(:, :, :)       !! (samples, unknowns, number) X
-    real(wp), allocatable :: inverse(:, :, :)     !! (samples, number, number) (XᵀX)⁻¹
+    real(wp), allocatable :: shape(:, :, :)       !! (samples, unknowns, number) X, whose columns
+                                                  !! are perpendicular and as long as 1
     real(wp), allocatable :: square(:)            !! (unknowns) 1/ω² of the other deformations by
                                                   !! themselves; 0 of the slow ones [s²]
     !> (samples of the coarse grid, number², matrices) in the order of `of_mass` to `of_drift`
@@ -181,7 +181,7 @@ contains
 
     real(wp), allocatable :: shape(:, :, :)
     integer, allocatable :: order(:)
-    integer :: i, j, k
+    integer :: i
 
     basis%number = number
     basis%square = own_squares(coarse)
@@ -199,14 +199,6 @@ contains
     allocate (basis%shape(plan%samples, coarse%unknowns, number))
     do i = 1, number
       call resample(coarse_plan, shape(:, :, i), plan, basis%shape(:, :, i))
-    end do
-    allocate (basis%inverse(plan%samples, number, number))
-    do j = 1, number
-      call resample(coarse_plan, basis%sums(:, (j - 1)*number + 1:j*number, of_stiffness), plan, &
-        basis%inverse(:, :, j))
-    end do
-    do k = 1, plan%samples
-      call invert((basis%inverse(k, :, :)), basis%inverse(k, :, :))
     end do
 
   contains

@@ -153,7 +153,7 @@ contains
   end subroutine approximate_solution
 
   !> An approximate solution from the slow motion: in the rest both load and solution have no slow
-  !! part, `f − X (XᵀX)⁻¹ Xᵀ f`.
+  !! part, `f − X Xᵀ f`.
   subroutine complete_solution(plan, basis, speed, damping, load, part, z, y)
     type(fourier_plan_t), intent(in) :: plan  !! for the samples
     type(slow_basis_t), intent(in) :: basis   !! of these samples
@@ -164,18 +164,16 @@ contains
     real(wp), intent(out) :: y(:, :)          !! (samples, unknowns)
 
     real(wp), allocatable :: coefficients(:, :), rest(:, :)
-    real(wp) :: share(size(part, 1), size(part, 2)), of_rest(size(part, 1), size(part, 2))
+    real(wp) :: of_rest(size(part, 1), size(part, 2))
 
     allocate (coefficients, mold=load)
-    call share_out(basis, part, share)
     rest = load
-    call add_slow(basis, -share, rest)
+    call add_slow(basis, -part, rest)
     call coefficients_of(plan, rest, coefficients)
     call divide_by_diagonal(basis%square, speed, damping, coefficients)
     call values_of(plan, coefficients, y)
     call slow_part(basis, y, of_rest)
-    call share_out(basis, of_rest, share)
-    call add_slow(basis, z - share, y)
+    call add_slow(basis, z - of_rest, y)
   end subroutine complete_solution
 
   !> Adds `X z`.
@@ -190,19 +188,6 @@ contains
       y(:, k) = y(:, k) + products_of_rows(basis%shape(:, k, :), z)
     end do
   end subroutine add_slow
-
-  !> `(XᵀX)⁻¹ Xᵀ f` from `Xᵀ f`.
-  pure subroutine share_out(basis, part, share)
-    type(slow_basis_t), intent(in) :: basis
-    real(wp), intent(in) :: part(:, :)   !! (samples, number)
-    real(wp), intent(out) :: share(:, :) !! (samples, number)
-
-    integer :: i
-
-    do i = 1, basis%number
-      share(:, i) = products_of_rows(basis%inverse(:, i, :), part)
-    end do
-  end subroutine share_out
 
   !> `Xᵀ f`.
   pure subroutine slow_part(basis, f, part)
