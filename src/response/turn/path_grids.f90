@@ -30,10 +30,9 @@ module path_grids
   integer, parameter :: way_by_turn = 4
   real(wp), parameter :: enough = 1.0e-13_wp, most = 1.0e-9_wp
 
-  !> Terms of one kind.
+  !> Terms of one kind: those of an array of the grid, or of a load case of it.
   type :: term_kind_t
-    integer :: number = 0       !! of them at a crank angle
-    real(wp) :: scale = 1.0_wp  !! of which a share is small
+    real(wp), pointer, contiguous :: values(:, :) => null() !! (samples, terms)
   end type term_kind_t
 
 contains
@@ -70,14 +69,16 @@ contains
     type(turn_grid_t), intent(inout) :: grid         !! by `new_path_grid`
     type(error_t), allocatable, intent(out) :: error !! why the grid has no terms
 
+    type(term_kind_t), allocatable :: kinds(:)
     integer :: k
 
     if (allocated(grid%series)) then
+      call list_terms(grid, kinds)
       do k = 1, size(crank)
         if (grid%range%is_turn) then
-          call take_terms(value_at(grid%series, modulo(crank(k), 360.0_wp)*degree), k, grid)
+          call take_terms(value_at(grid%series, modulo(crank(k), 360.0_wp)*degree), k, kinds)
         else
-          call take_terms(chebyshev_value(grid%series, share_of(grid%range, crank(k))), k, grid)
+          call take_terms(chebyshev_value(grid%series, share_of(grid%range, crank(k))), k, kinds)
         end if
       end do
     else
@@ -131,7 +132,7 @@ contains
       call new_turn_grid(structure, model, n, grid, error, range=range)
       if (allocated(error)) return
       if (allocated(grid%weighted)) call add_slopes(grid)
-      terms = terms_of(grid)
+      call join_terms(grid, terms)
       if (grid%range%is_turn) then
         allocate (coefficients, mold=terms)
         call open_fourier(n, plan)
@@ -140,7 +141,7 @@ contains
       else
         coefficients = chebyshev_coefficients(terms)
       end if
-      tail = tail_of(kinds_of(grid), coefficients)
+      tail = tail_of(grid, coefficients)
       ! More samples do not help against rounding.
       if (tail <= enough .or. i == size(turn_samples) .or. (tail <= most .and. tail > &
         0.1_wp*last)) exit
@@ -169,112 +170,110 @@ contains
     end do
   end subroutine add_slopes
 
-  !> All terms, kind after kind.
-  pure function terms_of(grid) result(terms)
+  !> All terms of a grid, kind after kind.
+  pure subroutine list_terms(grid, kinds)
+    type(turn_grid_t), intent(inout), target :: grid
+    type(term_kind_t), allocatable, intent(out) :: kinds(:) !! into the grid
+
+    integer :: c, n, s
+
+    s = grid%samples
+    allocate (kinds(14 + 3*grid%cases))
+    kinds(1)%values(1:s, 1:size(grid%chord)/s) => grid%chord
+    kinds(2)%values(1:s, 1:size(grid%turn)/s) => grid%turn
+    kinds(3)%values(1:s, 1:size(grid%pin)/s) => grid%pin
+    kinds(4)%values(1:s, 1:size(grid%chord_slope)/s) => grid%chord_slope
+    kinds(5)%values(1:s, 1:size(grid%pin_slope)/s) => grid%pin_slope
+    kinds(6)%values(1:s, 1:size(grid%place)/s) => grid%place
+    kinds(7)%values(1:s, 1:size(grid%direction)/s) => grid%direction
+    kinds(8)%values => grid%rate
+    kinds(9)%values => grid%rate_slope
+    n = 9
+    do c = 1, grid%cases
+      kinds(n + 1)%values(1:s, 1:size(grid%force(1, :, :, c))) => grid%force(:, :, :, c)
+      kinds(n + 2)%values => grid%load(:, :, c)
+      n = n + 2
+      if (.not. allocated(grid%second_order)) cycle
+      n = n + 1
+      kinds(n)%values(1:s, 1:grid%border**2) => grid%second_order(:, :, :, c)
+    end do
+    if (allocated(grid%weighted)) then
+      kinds(n + 1)%values(1:s, 1:size(grid%weighted)/s) => grid%weighted
+      kinds(n + 2)%values(1:s, 1:size(grid%weighted)/s) => grid%weighted_slope
+      n = n + 2
+    end if
+    if (allocated(grid%pieces)) then
+      kinds(n + 1)%values => grid%ratio
+      kinds(n + 2)%values => grid%stretch
+      kinds(n + 3)%values => grid%stretch_slope
+      n = n + 3
+    end if
+    kinds = kinds(:n)
+  end subroutine list_terms
+
+  !> What kinds of terms are small beside, if not their own largest, in the order of `list_terms`.
+  !! Where all of a kind may be zero but for rounding (slopes of what is constant, as of an open
+  !! chain whose links turn together; loads that act nowhere) that is another kind's size; unit
+  !! loads of different cases have different units.
+  pure function beside(grid) result(size_of)
     type(turn_grid_t), intent(in) :: grid
-    real(wp), allocatable :: terms(:, :) !! (samples, terms)
+    real(wp), allocatable :: size_of(:)
 
-    real(wp), allocatable :: flat(:)
-
-    flat = [real(wp) :: &
-      reshape(grid%chord, [size(grid%chord)]), &
-      reshape(grid%turn, [size(grid%turn)]), &
-      reshape(grid%pin, [size(grid%pin)]), &
-      reshape(grid%chord_slope, [size(grid%chord_slope)]), &
-      reshape(grid%pin_slope, [size(grid%pin_slope)]), &
-      reshape(grid%place, [size(grid%place)]), &
-      reshape(grid%direction, [size(grid%direction)]), &
-      reshape(grid%rate, [size(grid%rate)]), &
-      reshape(grid%rate_slope, [size(grid%rate_slope)]), &
-      reshape(grid%force, [size(grid%force)]), &
-      reshape(grid%load, [size(grid%load)])]
-    if (allocated(grid%second_order)) flat = [flat, reshape(grid%second_order, &
-      [size(grid%second_order)])]
-    if (allocated(grid%weighted)) flat = [flat, reshape(grid%weighted, [size(grid%weighted)])]
-    if (allocated(grid%weighted_slope)) flat = [flat, reshape(grid%weighted_slope, &
-      [size(grid%weighted_slope)])]
-    if (allocated(grid%pieces)) flat = [flat, reshape(grid%ratio, [size(grid%ratio)]), &
-      reshape(grid%stretch, [size(grid%stretch)]), reshape(grid%stretch_slope, &
-      [size(grid%stretch_slope)])]
-    terms = reshape(flat, [grid%samples, size(flat)/grid%samples])
-  end function terms_of
-
-  !> Kinds of terms, in the order of `terms_of`: how many there are, and what they are small
-  !! beside. Where all of a kind may be zero but for rounding (slopes of what is constant, as of an
-  !! open chain whose links turn together; loads that act nowhere) that is another kind's size;
-  !! unit loads of different cases have different units.
-  pure function kinds_of(grid) result(kinds)
-    type(turn_grid_t), intent(in) :: grid
-    type(term_kind_t), allocatable :: kinds(:)
-
-    real(wp) :: length, pins, chords, forces
+    real(wp) :: chords, force, length, pins
     integer :: c
 
     length = maxval(grid%model%links%length)
     pins = maxval(abs(grid%pin))
     chords = max(maxval(abs(grid%chord)), pins)
-    kinds = [kind_of(size(grid%chord), chords), kind_of(size(grid%turn), &
-      max(maxval(abs(grid%turn)), pins/length)), kind_of(size(grid%pin), pins), &
-      kind_of(size(grid%chord_slope), max(chords, maxval(abs(grid%chord_slope)))), &
-      kind_of(size(grid%pin_slope), max(pins, maxval(abs(grid%pin_slope)))), &
-      kind_of(size(grid%place), maxval(abs(grid%place))), kind_of(size(grid%direction), 1.0_wp), &
-      kind_of(size(grid%rate), max(1.0_wp, maxval(abs(grid%rate)))), &
-      kind_of(size(grid%rate_slope), max(1.0_wp, maxval(abs(grid%rate_slope))))]
+    size_of = [chords, pins/length, pins, chords, pins, 0.0_wp, 1.0_wp, 1.0_wp, 1.0_wp]
     do c = 1, grid%cases
-      kinds = [kinds, kind_of(size(grid%force(:, :, :, c)), force_of(c))]
+      ! The largest force: along the links, or what loads do, per displacement.
+      force = max(maxval(abs(grid%force(:, :, :, c))), maxval(abs(grid%load(:, :, c)))/max(pins, &
+        tiny(1.0_wp)))
+      size_of = [size_of, force, force*pins]
+      if (allocated(grid%second_order)) size_of = [size_of, force*maxval(abs(grid%turn))**2*length]
     end do
-    do c = 1, grid%cases
-      kinds = [kinds, kind_of(size(grid%load(:, :, c)), max(maxval(abs(grid%load(:, :, c))), &
-        force_of(c)*pins))]
+    if (allocated(grid%weighted)) size_of = [size_of, 0.0_wp, maxval(abs(grid%weighted))]
+    if (allocated(grid%pieces)) size_of = [size_of, 1.0_wp, 1.0_wp, 1.0_wp]
+  end function beside
+
+  !> All terms in one table.
+  subroutine join_terms(grid, terms)
+    type(turn_grid_t), intent(inout) :: grid
+    real(wp), allocatable, intent(out) :: terms(:, :) !! (samples, terms)
+
+    type(term_kind_t), allocatable :: kinds(:)
+    integer :: at, i
+
+    call list_terms(grid, kinds)
+    allocate (terms(grid%samples, sum([(size(kinds(i)%values, 2), i=1, size(kinds))])))
+    at = 0
+    do i = 1, size(kinds)
+      terms(:, at + 1:at + size(kinds(i)%values, 2)) = kinds(i)%values
+      at = at + size(kinds(i)%values, 2)
     end do
-    do c = 1, merge(grid%cases, 0, allocated(grid%second_order))
-      forces = force_of(c)*maxval(abs(grid%turn))**2*length
-      kinds = [kinds, kind_of(size(grid%second_order(:, :, :, c)), &
-        max(maxval(abs(grid%second_order(:, :, :, c))), forces))]
-    end do
-    if (allocated(grid%weighted)) kinds = [kinds, kind_of(size(grid%weighted), &
-      maxval(abs(grid%weighted)))]
-    if (allocated(grid%weighted_slope)) kinds = [kinds, kind_of(size(grid%weighted_slope), &
-      max(maxval(abs(grid%weighted)), maxval(abs(grid%weighted_slope))))]
-    if (allocated(grid%pieces)) kinds = [kinds, kind_of(size(grid%ratio), 1.0_wp), &
-      kind_of(size(grid%stretch), max(1.0_wp, maxval(abs(grid%stretch)))), &
-      kind_of(size(grid%stretch_slope), max(1.0_wp, maxval(abs(grid%stretch_slope))))]
+  end subroutine join_terms
 
-  contains
-
-    !> A kind, and how large it is.
-    pure type(term_kind_t) function kind_of(number, scale)
-      integer, intent(in) :: number !! of all values of the kind
-      real(wp), intent(in) :: scale
-
-      kind_of = term_kind_t(number/grid%samples, max(scale, tiny(1.0_wp)))
-    end function kind_of
-
-    !> The largest force of a load case: along the links, or what loads do, per displacement.
-    pure real(wp) function force_of(case)
-      integer, intent(in) :: case
-
-      force_of = max(maxval(abs(grid%force(:, :, :, case))), maxval(abs(grid%load(:, :, case)))/ &
-        max(pins, tiny(1.0_wp)))
-    end function force_of
-
-  end function kinds_of
-
-  !> The highest eighth of the harmonics, beside the size of their kind.
-  pure function tail_of(kinds, coefficients) result(tail)
-    type(term_kind_t), intent(in) :: kinds(:)
-    real(wp), intent(in) :: coefficients(:, :) !! (samples, terms)
+  !> The highest eighth of the coefficients, beside the size of their kind.
+  function tail_of(grid, coefficients) result(tail)
+    type(turn_grid_t), intent(inout) :: grid
+    real(wp), intent(in) :: coefficients(:, :) !! (samples, terms) of `join_terms`
     real(wp) :: tail
 
-    integer :: at, i, n
+    type(term_kind_t), allocatable :: kinds(:)
+    real(wp), allocatable :: size_of(:)
+    integer :: at, i, m, n
 
+    call list_terms(grid, kinds)
+    size_of = beside(grid)
     n = size(coefficients, 1)
     tail = 0.0_wp
     at = 0
     do i = 1, size(kinds)
-      if (kinds(i)%number > 0) tail = max(tail, maxval(abs(coefficients(n - n/8:, at + 1:at + &
-        kinds(i)%number)))/kinds(i)%scale)
-      at = at + kinds(i)%number
+      m = size(kinds(i)%values, 2)
+      if (m > 0) tail = max(tail, maxval(abs(coefficients(n - n/8:, at + 1:at + m)))/ &
+        max(size_of(i), maxval(abs(kinds(i)%values)), tiny(1.0_wp)))
+      at = at + m
     end do
   end function tail_of
 
@@ -306,57 +305,20 @@ contains
     grid%stretch_slope = grid%stretch_slope(spread(1, 1, samples), :)
   end subroutine resize
 
-  !> Terms at a crank angle, in the order of `terms_of`.
-  subroutine take_terms(terms, k, grid)
-    real(wp), intent(in) :: terms(:)
-    integer, intent(in) :: k !! number of the crank angle
-    type(turn_grid_t), intent(inout) :: grid
+  !> Takes terms at a crank angle.
+  pure subroutine take_terms(terms, k, kinds)
+    real(wp), intent(in) :: terms(:)          !! of a row of `join_terms`
+    integer, intent(in) :: k                  !! number of the crank angle
+    type(term_kind_t), intent(inout) :: kinds(:) !! of the grid
 
-    integer :: at
+    integer :: at, i, n
 
     at = 0
-    call take4(grid%chord(k, :, :, :))
-    call take3(grid%turn(k, :, :))
-    call take4(grid%pin(k, :, :, :))
-    call take4(grid%chord_slope(k, :, :, :))
-    call take4(grid%pin_slope(k, :, :, :))
-    call take3(grid%place(k, :, :))
-    call take3(grid%direction(k, :, :))
-    call take2(grid%rate(k, :))
-    call take2(grid%rate_slope(k, :))
-    call take4(grid%force(k, :, :, :))
-    call take3(grid%load(k, :, :))
-    if (allocated(grid%second_order)) call take4(grid%second_order(k, :, :, :))
-    if (allocated(grid%weighted)) call take3(grid%weighted(k, :, :))
-    if (allocated(grid%weighted_slope)) call take3(grid%weighted_slope(k, :, :))
-    if (.not. allocated(grid%pieces)) return
-    call take2(grid%ratio(k, :))
-    call take2(grid%stretch(k, :))
-    call take2(grid%stretch_slope(k, :))
-
-  contains
-
-    subroutine take2(here)
-      real(wp), intent(inout) :: here(:)
-
-      here = reshape(terms(at + 1:at + size(here)), shape(here))
-      at = at + size(here)
-    end subroutine take2
-
-    subroutine take3(here)
-      real(wp), intent(inout) :: here(:, :)
-
-      here = reshape(terms(at + 1:at + size(here)), shape(here))
-      at = at + size(here)
-    end subroutine take3
-
-    subroutine take4(here)
-      real(wp), intent(inout) :: here(:, :, :)
-
-      here = reshape(terms(at + 1:at + size(here)), shape(here))
-      at = at + size(here)
-    end subroutine take4
-
+    do i = 1, size(kinds)
+      n = size(kinds(i)%values, 2)
+      kinds(i)%values(k, :) = terms(at + 1:at + n)
+      at = at + n
+    end do
   end subroutine take_terms
 
 end module path_grids
