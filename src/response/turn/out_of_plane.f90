@@ -11,13 +11,15 @@
 !! turn with it; a moment of inertia is taken as that of a body that extends along the part that it
 !! is on, of a rigid link along the axis of its card. Springs and dampers do nothing.
 module out_of_plane
-  use band_matrix, only: full_band
   use beam_element, only: new_reference_element, reference_element_t
   use beam_mesh, only: beam_t
   use body_lumps, only: pieces_of
+  use bordered_eigensolver, only: bordered_modes_t, start_t
   use constants, only: two_pi
-  use dense_eigensolver, only: solve_dense
   use elastic_linkages, only: elastic_linkage_t, new_elastic_linkage
+  use element_eigensolver, only: element_pencil_t, find_element_modes
+  use element_matrices, only: elements_t, new_elements
+  use elimination_plan, only: elimination_plan_t, new_elimination_plan
   use errors, only: error_t
   use kinds, only: wp
   use linkages, only: lump_t, normal_to, turned, turned_back
@@ -68,6 +70,20 @@ module out_of_plane
                                       !! bubbles of its pieces
   end type numbering_t
 
+  !> How a point or a place on a part moves.
+  type :: motion_t
+    integer :: unknown(of_node) = 0             !! numbers of what moves it; 0: held
+    real(wp) :: rows(of_node, of_node) = 0.0_wp !! twist, displacement and slope along an axis, per
+                                                !! unit of each
+  end type motion_t
+
+  !> K and M, element after element. There is room for more.
+  type :: grillage_t
+    integer :: values = 0                          !! of the elements so far
+    integer, allocatable :: sizes(:), unknown(:)   !! as of `new_elements`
+    real(wp), allocatable :: stiffness(:), mass(:) !! values
+  end type grillage_t
+
 contains
 
   !> The lowest frequency over the turn, also between the crank angles looked at.
@@ -82,6 +98,7 @@ contains
 
     type(elastic_linkage_t) :: elastic
     type(grillage_element_t) :: element
+    type(start_t) :: start
     real(wp) :: at_position(0:positions + 1), crank, last_gain, lowest, finer, rounding
     integer :: k
 
@@ -130,19 +147,20 @@ contains
       if (.not. allocated(error)) call place_parts_of(structure%linkage, pose, elastic, placed, &
         error)
       if (allocated(error)) return
-      call grillage_frequency(structure%beams, elastic, placed, element, found, error, rounding)
+      call grillage_frequency(structure%beams, elastic, placed, element, start, found, error, &
+        rounding)
     end subroutine frequency_at
 
     !> From a minimum among the crank angles looked at to that between them.
-    subroutine descend(start, there)
-      real(wp), intent(in) :: start, there
+    subroutine descend(from, there)
+      real(wp), intent(in) :: from, there
 
       real(wp) :: at, best, f(-1:1), next, step, bend
       integer :: round
 
-      if (there < lowest) crank = start
+      if (there < lowest) crank = from
       lowest = min(lowest, there)
-      at = start
+      at = from
       best = there
       step = 360.0_wp/positions
       do round = 1, rounds
@@ -175,46 +193,53 @@ contains
 
   !> The lowest frequency at a position, from `K x = λ M x`; huge without mass.
   !!
-  !! Errors: the eigenvalues cannot be found.
-  subroutine grillage_frequency(beams, elastic, pose, element, frequency, error, rounding)
+  !! Errors: the eigenvalue cannot be found, or be proven to be the lowest.
+  subroutine grillage_frequency(beams, elastic, pose, element, start, frequency, error, rounding)
     type(beam_t), intent(in) :: beams(:)             !! (links) stiffnesses of those that bend
     type(elastic_linkage_t), intent(in) :: elastic   !! at the position
     type(pose_t), intent(in) :: pose                 !! of its points and parts
     type(grillage_element_t), intent(in) :: element
+    type(start_t), intent(inout) :: start            !! modes nearby, or none; become those here
     real(wp), intent(out) :: frequency               !! [Hz]
     type(error_t), allocatable, intent(out) :: error !! why there is none
-    real(wp), intent(out), optional :: rounding      !! relative: that of the diagonal of K
+    real(wp), intent(out), optional :: rounding      !! relative bound
 
     type(numbering_t) :: numbering
-    real(wp), allocatable :: stiffness(:, :), mass(:, :), vectors(:, :)
-    real(wp) :: inverse(1)
-    integer :: i, k
+    type(grillage_t) :: grillage
+    type(elements_t) :: elements
+    type(elimination_plan_t) :: plan
+    type(element_pencil_t) :: pencil
+    type(bordered_modes_t) :: found
+    integer :: k
 
     numbering = numbers_of(elastic, element)
-    allocate (stiffness(numbering%unknowns, numbering%unknowns))
-    allocate (mass, mold=stiffness)
-    stiffness = 0.0_wp
-    mass = 0.0_wp
+    allocate (grillage%sizes(0), grillage%unknown(0), grillage%stiffness(0), grillage%mass(0))
     frequency = huge(frequency)
     if (present(rounding)) rounding = 0.0_wp
     do k = 1, size(elastic%body)
       if (elastic%linkage%bodies(k)%bends) then
-        call add_beam(elastic, pose, numbering, element, k, stiffness, mass)
+        call add_beam(elastic, pose, numbering, element, k, grillage)
       else
-        call add_rigid_link(elastic, pose, numbering, k, beams(elastic%body(k))%polar_inertia, mass)
+        call add_rigid_link(elastic, pose, numbering, k, beams(elastic%body(k))%polar_inertia, &
+          grillage)
       end if
     end do
-    call add_point_masses(elastic, pose, numbering, mass)
-    if (numbering%unknowns == 0) return
-    call solve_dense(full_band(stiffness), full_band(mass), 1, present(rounding), inverse, &
-      vectors, error)
+    call add_point_masses(elastic, pose, numbering, grillage)
+    pencil%stiffness = grillage%stiffness(:grillage%values)
+    pencil%mass = grillage%mass(:grillage%values)
+    if (.not. any(abs(pencil%mass) > 0.0_wp)) return
+    elements = new_elements(numbering%unknowns, grillage%sizes, grillage%unknown)
+    if (start%modes > 0) then
+      if (size(start%direction, 1) /= elements%unknowns) start%modes = 0
+    end if
+    plan = new_elimination_plan(elements, spread(.false., 1, elements%unknowns))
+    call find_element_modes(elements, plan, pencil, 1, .false., start, found, error, 0.0_wp)
     if (allocated(error)) return
-    if (inverse(1) > 0.0_wp) frequency = 1.0_wp/(two_pi*sqrt(inverse(1)))
-    if (.not. present(rounding)) return
-    ! Beside a short part the stiffness of its neighbours is small; vectors have xᵀKx = 1.
-    do i = 1, numbering%unknowns
-      rounding = rounding + epsilon(1.0_wp)*stiffness(i, i)*vectors(i, 1)**2
-    end do
+    start%modes = size(found%lambda)
+    start%lambda = found%lambda
+    start%direction = found%mass_times
+    frequency = sqrt(found%lambda(1))/two_pi
+    if (present(rounding)) rounding = 0.5_wp*found%error(1)
   end subroutine grillage_frequency
 
   !> An element of any degree. That of twists is the axial one of an order that has their degree.
@@ -314,115 +339,123 @@ contains
     where (anchor == from) anchor = to
   end subroutine join
 
-  !> Twist, displacement and slope along an axis at a point, per unit of every unknown.
-  pure function point_rows(pose, numbering, axis, point) result(rows)
+  !> How a point moves, along an axis.
+  pure function point_motion(pose, numbering, axis, point) result(motion)
     type(pose_t), intent(in) :: pose
     type(numbering_t), intent(in) :: numbering
     real(wp), intent(in) :: axis(2) !! unit vector
     integer, intent(in) :: point
-    real(wp) :: rows(of_node, numbering%unknowns)
+    type(motion_t) :: motion
 
     real(wp) :: arm(2)
+    integer :: i
 
-    rows = 0.0_wp
-    associate (first => numbering%point(point))
-      if (first < 0) return
-      ! A tilt (φx, φy) moves the place (x, y) by φx y − φy x; the slope along an axis is minus the
-      ! tilt about its normal.
-      arm = pose%pin(:, point) - pose%pin(:, numbering%anchor(point))
-      rows(1, first + 2:first + 3) = axis
-      rows(2, first + 1:first + 3) = [1.0_wp, arm(2), -arm(1)]
-      rows(3, first + 2:first + 3) = -normal_to(axis)
-    end associate
-  end function point_rows
+    if (numbering%point(point) < 0) return
+    motion%unknown = [(numbering%point(point) + i, i=1, of_node)]
+    ! A tilt (φx, φy) moves the place (x, y) by φx y − φy x; the slope along an axis is minus the
+    ! tilt about its normal.
+    arm = pose%pin(:, point) - pose%pin(:, numbering%anchor(point))
+    motion%rows(1, 2:) = axis
+    motion%rows(2, :) = [1.0_wp, arm(2), -arm(1)]
+    motion%rows(3, 2:) = -normal_to(axis)
+  end function point_motion
 
-  !> Twist, displacement and slope of a part that bends at one of the ends of its pieces.
-  pure function node_rows(elastic, pose, numbering, part, node, pieces) result(rows)
+  !> How a part that bends moves at one of the ends of its pieces, along its axis.
+  pure function node_motion(elastic, pose, numbering, part, node, pieces) result(motion)
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: pose
     type(numbering_t), intent(in) :: numbering
     integer, intent(in) :: part, node, pieces !! node from 0 to `pieces`
-    real(wp) :: rows(of_node, numbering%unknowns)
+    type(motion_t) :: motion
 
     integer :: i
 
     associate (body => elastic%linkage%bodies(part))
       if (node == 0) then
-        rows = point_rows(pose, numbering, pose%direction(:, part), body%first_pin)
+        motion = point_motion(pose, numbering, pose%direction(:, part), body%first_pin)
       else if (node == pieces) then
-        rows = point_rows(pose, numbering, pose%direction(:, part), body%last_pin)
+        motion = point_motion(pose, numbering, pose%direction(:, part), body%last_pin)
       else
-        rows = 0.0_wp
         do i = 1, of_node
-          rows(i, numbering%inner(part) + of_node*(node - 1) + i) = 1.0_wp
+          motion%unknown(i) = numbering%inner(part) + of_node*(node - 1) + i
+          motion%rows(i, i) = 1.0_wp
         end do
       end if
     end associate
-  end function node_rows
+  end function node_motion
 
   !> Adds a part that bends, with the masses along it. Twists and displacements are not coupled.
-  pure subroutine add_beam(elastic, pose, numbering, element, part, stiffness, mass)
+  pure subroutine add_beam(elastic, pose, numbering, element, part, grillage)
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: pose
     type(numbering_t), intent(in) :: numbering
     type(grillage_element_t), intent(in) :: element
     integer, intent(in) :: part
-    real(wp), intent(inout) :: stiffness(:, :), mass(:, :)
+    type(grillage_t), intent(inout) :: grillage
 
-    real(wp), allocatable :: ends(:), across(:, :), about(:, :)
-    real(wp), dimension(of_node, numbering%unknowns) :: first, last
+    real(wp), allocatable :: ends(:)
+    type(motion_t) :: first, last
     real(wp) :: h
-    integer :: e, i, m, n, bubble, pieces
+    integer :: e, i, bubble, pieces
 
-    m = size(element%bending, 1)
-    n = size(element%torsion, 1)
-    allocate (across(m, numbering%unknowns), about(n, numbering%unknowns))
     associate (body => elastic%linkage%bodies(part), beam => elastic%beams(part))
       ends = pieces_of(body)
       pieces = size(ends) - 1
       bubble = numbering%inner(part) + of_node*(pieces - 1)
       do e = 1, pieces
         h = body%length*(ends(e + 1) - ends(e))
-        first = node_rows(elastic, pose, numbering, part, e - 1, pieces)
-        last = node_rows(elastic, pose, numbering, part, e, pieces)
-        across = 0.0_wp
-        about = 0.0_wp
-        across(1, :) = first(2, :)
-        across(2, :) = h*first(3, :)
-        across(m - 1, :) = last(2, :)
-        across(m, :) = h*last(3, :)
-        about(1, :) = first(1, :)
-        about(n, :) = last(1, :)
-        do i = 3, m - 2
-          bubble = bubble + 1
-          across(i, bubble) = 1.0_wp
-        end do
-        do i = 2, n - 1
-          bubble = bubble + 1
-          about(i, bubble) = 1.0_wp
-        end do
-        call add_form(beam%out_of_plane_stiffness/h**3*element%bending, across, stiffness)
-        call add_form(beam%torsional_stiffness/h*element%torsion, about, stiffness)
-        call add_form(body%line_density*h*element%deflection, across, mass)
-        call add_form(beam%polar_inertia*h*element%twist, about, mass)
+        first = node_motion(elastic, pose, numbering, part, e - 1, pieces)
+        last = node_motion(elastic, pose, numbering, part, e, pieces)
+        first%rows(3, :) = h*first%rows(3, :)
+        last%rows(3, :) = h*last%rows(3, :)
+        call add_piece(beam%out_of_plane_stiffness/h**3*element%bending, &
+          body%line_density*h*element%deflection, first, last, [2, 3], bubble, grillage)
+        call add_piece(beam%torsional_stiffness/h*element%torsion, &
+          beam%polar_inertia*h*element%twist, first, last, [1], bubble, grillage)
       end do
       do i = 1, size(body%lumps)
         e = minloc(abs(ends*body%length - body%lumps(i)%place(1)), dim=1) - 1
-        call add_lump(body%lumps(i), [0.0_wp, body%lumps(i)%place(2)], node_rows(elastic, pose, &
-          numbering, part, e, pieces), mass)
+        call add_lump(body%lumps(i), [0.0_wp, body%lumps(i)%place(2)], 0.0_wp, &
+          node_motion(elastic, pose, numbering, part, e, pieces), grillage)
       end do
     end associate
   end subroutine add_beam
 
+  !> Adds a piece: its matrices are of some rows at its first end, bubbles, and those at its last.
+  pure subroutine add_piece(stiffness, mass, first, last, own, bubble, grillage)
+    real(wp), intent(in) :: stiffness(:, :), mass(:, :)
+    type(motion_t), intent(in) :: first, last
+    integer, intent(in) :: own(:)     !! the rows
+    integer, intent(inout) :: bubble !! number before its bubbles; becomes that of the last one
+    type(grillage_t), intent(inout) :: grillage
+
+    real(wp) :: rows(size(mass, 1), 2*of_node + size(mass, 1) - 2*size(own))
+    integer :: unknown(size(rows, 2)), i, to
+
+    rows = 0.0_wp
+    unknown(:of_node) = first%unknown
+    rows(:size(own), :of_node) = first%rows(own, :)
+    ! Ends on the same rigid link have the same unknowns.
+    to = merge(0, of_node, last%unknown(1) == first%unknown(1))
+    unknown(of_node + 1:2*of_node) = merge(0, last%unknown, to == 0)
+    rows(size(mass, 1) - size(own) + 1:, to + 1:to + of_node) = last%rows(own, :)
+    do i = 1, size(mass, 1) - 2*size(own)
+      bubble = bubble + 1
+      unknown(2*of_node + i) = bubble
+      rows(size(own) + i, 2*of_node + i) = 1.0_wp
+    end do
+    call add_forms(stiffness, mass, rows, unknown, grillage)
+  end subroutine add_piece
+
   !> Adds the mass of a rigid link, uniform or a lump for each of its segments, and what is fixed to
   !! it.
-  pure subroutine add_rigid_link(elastic, pose, numbering, part, polar_inertia, mass)
+  pure subroutine add_rigid_link(elastic, pose, numbering, part, polar_inertia, grillage)
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: pose
     type(numbering_t), intent(in) :: numbering
     integer, intent(in) :: part
     real(wp), intent(in) :: polar_inertia !! per length of its segments [kg m]
-    real(wp), intent(inout) :: mass(:, :)
+    type(grillage_t), intent(inout) :: grillage
 
     type(lump_t) :: lump
     real(wp) :: from(2), way(2), axis(2)
@@ -434,95 +467,111 @@ contains
         lump%mass = body%line_density*body%length
         lump%place(1) = 0.5_wp*body%length
         lump%inertia = lump%mass*body%length**2/12.0_wp
-        call add_on_link(lump, axis, polar_inertia*body%length, mass)
+        call add_on_link(lump, axis, polar_inertia*body%length, grillage)
       end if
       ! Each segment begins where the one before it ends, and its mass centre is in its middle.
       from = body%origin
       do i = 1, size(body%lumps)
         lump = body%lumps(i)
         if (i > body%own_lumps) then
-          call add_on_link(lump, body%card_axis, 0.0_wp, mass)
+          call add_on_link(lump, body%card_axis, 0.0_wp, grillage)
           cycle
         end if
         way = 2.0_wp*(lump%place - from)
         from = from + way
         if (body%own_lumps > 1) axis = way/norm2(way)
         lump%inertia = lump%inertia - lump%rotary_inertia
-        call add_on_link(lump, axis, polar_inertia*norm2(way), mass)
+        call add_on_link(lump, axis, polar_inertia*norm2(way), grillage)
       end do
     end associate
 
   contains
 
     !> Adds what extends along an axis in those of the link.
-    pure subroutine add_on_link(lump, axis, polar, mass)
+    pure subroutine add_on_link(lump, axis, polar, grillage)
       type(lump_t), intent(in) :: lump
       real(wp), intent(in) :: axis(2)
       real(wp), intent(in) :: polar        !! moment of inertia about it [kg m²]
-      real(wp), intent(inout) :: mass(:, :)
+      type(grillage_t), intent(inout) :: grillage
 
-      real(wp) :: rows(of_node, numbering%unknowns)
-
-      rows = point_rows(pose, numbering, turned(axis, pose%direction(:, part)), &
-        elastic%linkage%bodies(part)%first_pin)
-      call add_lump(lump, turned_back(lump%place, axis), rows, mass)
-      call add_square(polar, rows(1, :), mass)
+      call add_lump(lump, turned_back(lump%place, axis), polar, point_motion(pose, numbering, &
+        turned(axis, pose%direction(:, part)), elastic%linkage%bodies(part)%first_pin), grillage)
     end subroutine add_on_link
 
   end subroutine add_rigid_link
 
   !> Adds the masses at pins, and what is fixed where parts meet.
-  pure subroutine add_point_masses(elastic, pose, numbering, mass)
+  pure subroutine add_point_masses(elastic, pose, numbering, grillage)
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: pose
     type(numbering_t), intent(in) :: numbering
-    real(wp), intent(inout) :: mass(:, :)
+    type(grillage_t), intent(inout) :: grillage
 
-    real(wp) :: rows(of_node, numbering%unknowns)
     integer :: i, p
 
     do p = 1, size(numbering%point)
-      rows = point_rows(pose, numbering, [1.0_wp, 0.0_wp], p)
-      call add_square(elastic%linkage%pin_mass(p), rows(2, :), mass)
+      call add_lump(lump_t(mass=elastic%linkage%pin_mass(p)), [0.0_wp, 0.0_wp], 0.0_wp, &
+        point_motion(pose, numbering, [1.0_wp, 0.0_wp], p), grillage)
     end do
     do i = 1, size(elastic%carried)
       associate (this => elastic%carried(i))
-        call add_lump(lump_t(mass=this%mass, inertia=this%inertia), this%arm, point_rows(pose, &
-          numbering, pose%direction(:, elastic%ways(this%way)%first_part), this%point), mass)
+        call add_lump(lump_t(mass=this%mass, inertia=this%inertia), this%arm, 0.0_wp, &
+          point_motion(pose, numbering, pose%direction(:, elastic%ways(this%way)%first_part), &
+          this%point), grillage)
       end associate
     end do
   end subroutine add_point_masses
 
-  !> Adds a mass at the end of an arm, and its moment of inertia.
-  pure subroutine add_lump(lump, arm, rows, mass)
+  !> Adds a mass at the end of an arm, and its moments of inertia.
+  pure subroutine add_lump(lump, arm, polar, motion, grillage)
     type(lump_t), intent(in) :: lump
-    real(wp), intent(in) :: arm(2)     !! along the axis of the rows, and to its left [m]
-    real(wp), intent(in) :: rows(:, :) !! (twist, displacement and slope, unknowns)
-    real(wp), intent(inout) :: mass(:, :)
+    real(wp), intent(in) :: arm(2)         !! along the axis of the motion, and to its left [m]
+    real(wp), intent(in) :: polar          !! moment of inertia about that axis [kg m²]
+    type(motion_t), intent(in) :: motion
+    type(grillage_t), intent(inout) :: grillage
 
-    call add_square(lump%mass, rows(2, :) + arm(1)*rows(3, :) + arm(2)*rows(1, :), mass)
-    call add_square(lump%inertia, rows(3, :), mass)
+    real(wp) :: row(of_node), mass(of_node, of_node)
+
+    row = [arm(2), 1.0_wp, arm(1)]
+    mass = lump%mass*spread(row, 1, of_node)*spread(row, 2, of_node)
+    mass(1, 1) = mass(1, 1) + polar
+    mass(3, 3) = mass(3, 3) + lump%inertia
+    if (any(abs(mass) > 0.0_wp)) call add_forms(0.0_wp*mass, mass, motion%rows, motion%unknown, &
+      grillage)
   end subroutine add_lump
 
-  !> Adds `factor · row rowᵀ`.
-  pure subroutine add_square(factor, row, matrix)
-    real(wp), intent(in) :: factor, row(:)
-    real(wp), intent(inout) :: matrix(:, :)
+  !> Adds an element, `rowsᵀ · form · rows` for both matrices.
+  pure subroutine add_forms(stiffness, mass, rows, unknown, grillage)
+    real(wp), intent(in) :: stiffness(:, :), mass(:, :) !! the forms
+    real(wp), intent(in) :: rows(:, :)
+    integer, intent(in) :: unknown(:) !! numbers of the columns of the rows, none twice; 0: held
+    type(grillage_t), intent(inout) :: grillage
 
-    call add_form(reshape([factor], [1, 1]), reshape(row, [1, size(row)]), matrix)
-  end subroutine add_square
+    integer, allocatable :: own(:)
+    integer :: i, n
 
-  !> Adds `rowsᵀ · form · rows`. Most columns of the rows are zero.
-  pure subroutine add_form(form, rows, matrix)
-    real(wp), intent(in) :: form(:, :), rows(:, :)
-    real(wp), intent(inout) :: matrix(:, :)
+    own = pack([(i, i=1, size(unknown))], unknown > 0)
+    n = size(own)
+    grillage%sizes = [grillage%sizes, n]
+    grillage%unknown = [grillage%unknown, unknown(own)]
+    call append(stiffness, grillage%stiffness)
+    call append(mass, grillage%mass)
+    grillage%values = grillage%values + n**2
 
-    integer, allocatable :: columns(:)
-    integer :: j
+  contains
 
-    columns = pack([(j, j=1, size(rows, 2))], any(abs(rows) > 0.0_wp, dim=1))
-    matrix(columns, columns) = matrix(columns, columns) + matmul(transpose(rows(:, columns)), &
-      matmul(form, rows(:, columns)))
-  end subroutine add_form
+    !> Appends the values of a matrix to those of all elements. Room doubles.
+    pure subroutine append(form, value)
+      real(wp), intent(in) :: form(:, :)
+      real(wp), allocatable, intent(inout) :: value(:)
+
+      real(wp) :: element(n, n)
+
+      element = matmul(transpose(rows(:, own)), matmul(form, rows(:, own)))
+      if (grillage%values + n**2 > size(value)) value = [value, value, element]
+      value(grillage%values + 1:grillage%values + n**2) = reshape(element, [n**2])
+    end subroutine append
+
+  end subroutine add_forms
 
 end module out_of_plane
