@@ -33,10 +33,14 @@ module slow_motions
 
   !> Subspace iterations at most: the error of the lowest frequencies falls by the square of the
   !! ratio of frequencies each time. Where deformations change places over the turn, slow ones
-  !! becoming fast, each iteration makes them do so within fewer degrees: one whose highest quarter
-  !! of the harmonics has more than this share of X is not made.
+  !! becoming fast, each iteration makes them do so within fewer degrees: beyond the first, one
+  !! whose highest quarter of the harmonics has more than this share of X is not made.
   integer, parameter :: iterations = 3
   real(wp), parameter :: unresolved = 5.0e-3_wp
+
+  !> Of a column at least this share of its square is left beside those before, or it is made
+  !! perpendicular again.
+  real(wp), parameter :: enough_left = 1.0e-3_wp
 
   !> Free motions that grow by more than this in a turn leave no digits of a periodic one; within
   !! the turn they may grow until numbers nearly overflow.
@@ -321,10 +325,11 @@ contains
         call mass_force(grid, shape(:, :, i), next(:, :, i))
       end do
       call normalise(slow, next, error)
-      if (allocated(error)) return
+      if (allocated(error)) exit
       if (k > 1 .and. .not. is_resolved(plan, next)) exit
       call move_alloc(next, shape)
     end do
+    if (k > 1 .and. allocated(error)) deallocate (error)
   end subroutine find_shapes
 
   !> Whether the samples resolve X.
@@ -443,31 +448,35 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     real(wp) :: scaling(size(slow), size(slow), size(shape, 1)), products(size(shape, 1), &
-      size(slow)**2)
-    integer :: k
+      size(slow)**2), least
+    integer :: i, k
 
     do k = 1, size(shape, 1)
       call invert(shape(k, slow, :), scaling(:, :, k))
     end do
     call multiply_by(scaling, shape)
-    if (any(abs(shape) > huge(1.0_wp))) then
-      call set_error(error, error_of_numerics, &
-        "the slow vibrations cannot be told from the fast ones")
-      return
-    end if
-    products = 0.0_wp
-    call add_products(shape, shape, products)
-    do k = 1, size(shape, 1)
-      scaling(:, :, k) = perpendicular(reshape(products(k, :), [size(slow), size(slow)]))
+    ! Columns of which little is left beside those before are perpendicular after a second time.
+    do i = 1, 2
+      products = 0.0_wp
+      call add_products(shape, shape, products)
+      least = huge(least)
+      do k = 1, size(shape, 1)
+        call find_perpendicular(reshape(products(k, :), [size(slow), size(slow)]), &
+          scaling(:, :, k), least)
+      end do
+      call multiply_by(scaling, shape)
+      if (least > enough_left) exit
     end do
-    call multiply_by(scaling, shape)
+    if (.not. all(abs(shape) <= huge(1.0_wp))) call set_error(error, error_of_numerics, &
+      "the slow vibrations cannot be told from the fast ones")
   end subroutine normalise
 
   !> Columns A so that those of X A are perpendicular and as long as 1, each of those of X up to its
   !! own: Gram and Schmidt's, from XᵀX.
-  pure function perpendicular(product) result(a)
-    real(wp), intent(in) :: product(:, :)               !! XᵀX
-    real(wp) :: a(size(product, 1), size(product, 1))
+  pure subroutine find_perpendicular(product, a, least)
+    real(wp), intent(in) :: product(:, :)  !! XᵀX
+    real(wp), intent(out) :: a(:, :)
+    real(wp), intent(inout) :: least       !! share of the square of a column that is left, if less
 
     real(wp) :: image(size(a, 1), size(a, 1)), share
     integer :: i, j
@@ -481,11 +490,13 @@ contains
         a(:j, i) = a(:j, i) - share*a(:j, j)
         image(:, i) = image(:, i) - share*image(:, j)
       end do
-      share = sqrt(dot_product(a(:i, i), image(:i, i)))
+      share = dot_product(a(:i, i), image(:i, i))
+      least = min(least, share/product(i, i))
+      share = sqrt(share)
       a(:i, i) = a(:i, i)/share
       image(:, i) = image(:, i)/share
     end do
-  end function perpendicular
+  end subroutine find_perpendicular
 
   !> Inverse of a small matrix.
   subroutine invert(matrix, inverse)

@@ -1,8 +1,8 @@
 !> Grids of a turn with what periodic solutions on them need, made when a speed needs them: speeds,
 !! reports of the response and of stability share them.
 module response_levels
-  use crank_laws, only: crank_range_t, positions_of
   use body_lumps, only: pieces_of
+  use crank_laws, only: covered_range_t, positions_of
   use deformation_model, only: deformation_model_t, new_deformation_model
   use errors, only: error_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
@@ -128,10 +128,10 @@ contains
     type(link_store_t), intent(inout) :: store         !! links decomposed earlier
     type(deformation_model_t), intent(out) :: model
     type(error_t), allocatable, intent(out) :: error   !! why there is none
-    type(crank_range_t), intent(in), optional :: range !! positions that it is for; absent: a turn
+    type(covered_range_t), intent(in), optional :: range !! positions that it is for; absent: a turn
 
     type(linkage_t) :: linkage
-    type(crank_range_t) :: covered
+    type(covered_range_t) :: covered
     type(link_degrees_t), allocatable :: degrees(:)
     integer :: b, n, pieces, across
 

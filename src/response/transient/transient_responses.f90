@@ -8,7 +8,7 @@
 module transient_responses
   use beam_mesh, only: beam_t
   use constants, only: two_pi
-  use crank_laws, only: constant_from, crank_law_t, crank_motion, crank_range_t, range_of, &
+  use crank_laws, only: constant_from, covered_range_t, crank_law_t, crank_motion, extremes_of, &
     time_of_turns
   use deformation_model, only: deformation_model_t
   use errors, only: error_of_numerics, error_t, set_error
@@ -20,6 +20,7 @@ module transient_responses
   use linkages, only: gives_angle, linkage_t
   use part_requests, only: join_largest, request_of_parts
   use path_grids, only: new_path_grid, place_grid
+  use poses, only: find_pose, pose_t
   use response_levels, only: damping_of, new_order_model
   use response_peaks, only: sampled_deflections
   use response_types, only: strain_values
@@ -67,8 +68,12 @@ module transient_responses
   !> A quantity smaller than this beside what goes with it is taken for zero by its nature.
   real(wp), parameter :: by_nature = 1.0e-3_wp
 
-  !> Derivatives need a way of this share of the longest link where a length is driven.
-  real(wp), parameter :: least_share = 0.01_wp
+  !> Displacements smaller than this beside the largest of all points are of rounding.
+  real(wp), parameter :: of_rounding = 1.0e-6_wp
+
+  !> Derivatives of terms need a way, by an angle [deg] or as a share of the longest link; of those
+  !! of a block along a link, which come in twice, so many times more.
+  real(wp), parameter :: least_angle = 1.0_wp, least_share = 0.01_wp, for_blocks = 12.0_wp
 
   !> Instants whose places are found together.
   integer, parameter :: at_a_time = 128
@@ -87,8 +92,11 @@ contains
 
     type(transient_request_t) :: of_bodies
     type(crank_law_t) :: law
+    type(covered_range_t) :: range
     integer :: k
 
+    range%is_angle = gives_angle(structure%linkage%drives(1))
+    range%is_turn = range%is_angle .and. request%turns_fully
     of_bodies = request
     if (allocated(structure%elastic)) of_bodies%response = request_of_parts(structure%elastic, &
       request%response)
@@ -97,10 +105,7 @@ contains
       if (was_interrupted()) exit
       law = crank_law_t(request%crank, request%response%speed(k), request%ramp)
       if (allocated(request%program)) law%program = request%program
-      if (.not. gives_angle(structure%linkage%drives(1))) then
-        law%range%unit = 1.0_wp
-        law%range%least = least_share*maxval(structure%linkage%bodies%length)
-      end if
+      law%range = range
       call find_transient(structure, of_bodies, law, store, transient%at_speed(k))
       if (allocated(structure%elastic)) call join_largest(structure%elastic, &
         size(structure%linkage%bodies), transient%at_speed(k)%deflection)
@@ -123,7 +128,7 @@ contains
 
     call find_instants(request, of_crank, found)
     law = of_crank
-    law%range = range_of(law, found%time)
+    if (.not. law%range%is_turn) call cover(structure, extremes_of(law, found%time), law%range)
     accuracy = request%response%accuracy
     found%order = first_order(accuracy)
     found%steps = 0
@@ -180,6 +185,37 @@ contains
     end subroutine set_missed
 
   end subroutine find_transient
+
+  !> The positions that a motion covers, and as many beside them as derivatives need and the linkage
+  !! reaches.
+  subroutine cover(structure, extremes, range)
+    class(structure_t), intent(in) :: structure
+    real(wp), intent(in) :: extremes(2)          !! [deg] or [m]
+    type(covered_range_t), intent(inout) :: range
+
+    type(pose_t) :: pose
+    type(error_t), allocatable :: lower, upper
+    real(wp) :: way, from
+    integer :: i
+
+    way = merge(least_angle, least_share*maxval(structure%linkage%bodies%length), range%is_angle)
+    if (any(structure%linkage%sliders%body > 0)) way = for_blocks*way
+    range%from = extremes(1)
+    range%to = extremes(2)
+    if (range%to - range%from >= way) return
+    do i = 1, 3
+      ! In the middle of it, else at one of its ends.
+      if (i == 1) from = 0.5_wp*(extremes(1) + extremes(2) - way)
+      if (i == 2) from = extremes(1)
+      if (i == 3) from = extremes(2) - way
+      call find_pose(structure%linkage, from, pose, lower)
+      call find_pose(structure%linkage, from + way, pose, upper)
+      if (allocated(lower) .or. allocated(upper)) cycle
+      range%from = from
+      range%to = from + way
+      return
+    end do
+  end subroutine cover
 
   !> Times of the rows, up to the end itself, with crank angles and speeds.
   pure subroutine find_instants(request, law, found)
@@ -267,7 +303,7 @@ contains
   subroutine grid_at(structure, model, range, crank, grid, reached)
     class(structure_t), intent(in) :: structure
     type(deformation_model_t), intent(in) :: model
-    type(crank_range_t), intent(in) :: range
+    type(covered_range_t), intent(in) :: range
     real(wp), intent(in) :: crank !! [deg]
     type(turn_grid_t), intent(out) :: grid
     logical, intent(out) :: reached !! the terms are there
@@ -349,7 +385,7 @@ contains
     error)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
-    type(crank_range_t), intent(in) :: range
+    type(covered_range_t), intent(in) :: range
     real(wp), intent(in) :: crank(:) !! (instants) [deg]
     type(deformation_model_t), intent(in) :: model
     type(transient_motion_t), intent(in) :: motion
@@ -428,7 +464,7 @@ contains
     real(wp), intent(out) :: strain(:)       !! (gauges)
 
     type(linkage_t) :: linkage
-    real(wp) :: largest(size(series, 2)), far(size(displacement)), least, tension, bend
+    real(wp) :: largest(size(series, 2)), far(size(displacement)), least, tension, bend, turn
     integer :: first, i
 
     linkage = vibrating_linkage(structure)
@@ -438,12 +474,14 @@ contains
       far(i) = sqrt(maxval(series(:, first)**2 + series(:, first + 1)**2))
     end do
     ! What the drive holds does not move but for rounding.
-    far = max(far, by_nature**2*maxval([0.0_wp, far]), tiny(1.0_wp))
+    far = max(far, of_rounding*maxval([0.0_wp, far]), tiny(1.0_wp))
+    turn = max(of_rounding*maxval([0.0_wp, largest(of_point:of_point*size(far):of_point)]), &
+      tiny(1.0_wp))
     do i = 1, size(displacement)
       first = of_point*(i - 1) + 1
       displacement(i) = max(norm2(change(first:first + 1))/far(i), change(first + 2)/ &
         max(largest(first + 2), by_nature*far(i)/linkage%bodies(request%response%points(i)% &
-        body)%length))
+        body)%length, turn))
     end do
     do i = 1, size(strain)
       first = of_point*size(displacement) + of_gauge*(i - 1) + 1

@@ -23,6 +23,7 @@ module transient_types
     type(response_request_t) :: response !! speeds, accuracy, terms, damping, gauges, points;
                                          !! accuracy is relative to the largest over the run
     real(wp) :: ramp = 0.0_wp       !! time in which the crank gets to its speed; 0: it has it [s]
+    logical :: turns_fully = .true. !! the linkage, and is where it was after a turn
     real(wp) :: crank = 0.0_wp      !! first crank angle [deg]
     real(wp) :: turns = 1.0_wp      !! of the crank, until the end
     integer :: instants = 72        !! of a turn at the speed

@@ -1,5 +1,5 @@
-!> The prescribed motion of the crank in time: at constant speed, from rest with constant
-!! acceleration up to it, or by the law of the deck.
+!> The prescribed motion of the first drive in time: at constant speed, from rest with constant
+!! acceleration up to it, or by the law of the deck; and the positions that it covers.
 module crank_laws
   use chebyshev_series, only: chebyshev_nodes
   use constants, only: degree, two_pi
@@ -8,19 +8,15 @@ module crank_laws
   implicit none (type, external)
   private
 
-  public :: crank_law_t, crank_range_t, crank_motion, crank_breaks, constant_from, time_of_turns, &
-    range_of, positions_of, half_of, share_of
+  public :: crank_law_t, covered_range_t, crank_motion, crank_breaks, constant_from, &
+    time_of_turns, extremes_of, positions_of, half_of, place_in
 
   !> Positions of the first drive that a motion covers: those of a turn, or of a part of the way.
-  type :: crank_range_t
+  type :: covered_range_t
     logical :: is_turn = .true.
+    logical :: is_angle = .true.
     real(wp) :: from = 0.0_wp, to = 360.0_wp !! [deg] or [m]
-    real(wp) :: unit = degree                !! of a position [rad] or [m]
-    real(wp) :: least = 1.0_wp               !! way that derivatives need [deg] or [m]
-  end type crank_range_t
-
-  !> Positions looked at between instants of a law.
-  integer, parameter :: between = 16
+  end type covered_range_t
 
   type :: crank_law_t
     real(wp) :: start = 0.0_wp !! first crank angle [deg]
@@ -28,8 +24,11 @@ module crank_laws
     real(wp) :: ramp = 0.0_wp  !! time from rest to this speed; 0: it is constant from the start [s]
     type(motion_program_t), allocatable :: program !! the position [deg] or [m], in place of the
                                                    !! above
-    type(crank_range_t) :: range !! positions that the motion covers, their unit
+    type(covered_range_t) :: range !! positions that the motion covers, their unit
   end type crank_law_t
+
+  !> Positions of a law looked at between two instants, and in all.
+  integer, parameter :: between = 16, in_all = 4000
 
 contains
 
@@ -41,8 +40,8 @@ contains
     real(wp) :: motion(0:2)        !! [deg, rad/s, rad/s²] or [m, m/s, m/s²]
 
     if (allocated(law%program)) then
-      motion = program_values_inside(law%program, time, inside)*[1.0_wp, law%range%unit, &
-        law%range%unit]
+      motion = program_values_inside(law%program, time, inside)*[1.0_wp, unit_of(law%range), &
+        unit_of(law%range)]
     else if (inside < law%ramp) then
       motion = [law%start + 0.5_wp*law%speed*time**2/law%ramp/degree, law%speed*(time/law%ramp), &
         law%speed/law%ramp]
@@ -87,39 +86,79 @@ contains
     end if
   end function time_of_turns
 
-  !> The positions that a motion covers from the first time to the last.
-  pure function range_of(law, time) result(range)
+  !> The least and the greatest position of a motion from the first time to the last.
+  pure function extremes_of(law, time) result(extremes)
     type(crank_law_t), intent(in) :: law
     real(wp), intent(in) :: time(:)  !! rising [s]
-    type(crank_range_t) :: range
+    real(wp) :: extremes(2)          !! [deg] or [m]
 
     real(wp), allocatable :: ends(:)
-    real(wp) :: motion(0:2), least, most
-    integer :: i, j, k
+    real(wp) :: motion(0:2), before(0:2), inside, step
+    integer :: i, j, k, n
 
-    range = law%range
-    least = huge(least)
-    most = -huge(most)
+    n = max(between, in_all/size(time))
+    extremes = [huge(1.0_wp), -huge(1.0_wp)]
     do k = 1, size(time) - 1
       ends = [time(k), crank_breaks(law, time(k), time(k + 1)), time(k + 1)]
       do i = 1, size(ends) - 1
-        do j = 0, between
-          motion = crank_motion(law, ends(i) + (ends(i + 1) - ends(i))*j/between, &
-            0.5_wp*(ends(i) + ends(i + 1)))
-          least = min(least, motion(0))
-          most = max(most, motion(0))
+        inside = 0.5_wp*(ends(i) + ends(i + 1))
+        step = (ends(i + 1) - ends(i))/n
+        do j = 0, n
+          motion = crank_motion(law, ends(i) + j*step, inside)
+          call take(motion(0))
+          if (j > 0) then
+            if (before(1)*motion(1) < 0.0_wp) call take(turning_point(law, ends(i) + &
+              (j - 1)*step, ends(i) + j*step, inside))
+          end if
+          before = motion
         end do
       end do
     end do
-    range%is_turn = range%unit < 1.0_wp .and. most - least >= 360.0_wp
-    if (range%is_turn) return
-    range%to = max(most, 0.5_wp*(least + most + range%least))
-    range%from = min(least, range%to - range%least)
-  end function range_of
+
+  contains
+
+    pure subroutine take(position)
+      real(wp), intent(in) :: position
+
+      extremes = [min(extremes(1), position), max(extremes(2), position)]
+    end subroutine take
+
+  end function extremes_of
+
+  !> The position between two times at which a drive turns back.
+  pure real(wp) function turning_point(law, from, to, inside)
+    type(crank_law_t), intent(in) :: law
+    real(wp), intent(in) :: from, to !! with rates of different signs [s]
+    real(wp), intent(in) :: inside   !! as for `crank_motion`
+
+    integer, parameter :: halvings = 40
+    real(wp) :: motion(0:2), first(0:2), a, b
+    integer :: i
+
+    a = from
+    b = to
+    first = crank_motion(law, a, inside)
+    do i = 1, halvings
+      motion = crank_motion(law, 0.5_wp*(a + b), inside)
+      if (first(1)*motion(1) > 0.0_wp) then
+        a = 0.5_wp*(a + b)
+      else
+        b = 0.5_wp*(a + b)
+      end if
+    end do
+    turning_point = motion(0)
+  end function turning_point
+
+  !> A position in units of derivatives: rad of an angle, m of a length.
+  pure real(wp) function unit_of(range)
+    type(covered_range_t), intent(in) :: range
+
+    unit_of = merge(degree, 1.0_wp, range%is_angle)
+  end function unit_of
 
   !> Positions of a range: evenly over a turn from 0, else those of Chebyshev series.
   pure function positions_of(range, number) result(positions)
-    type(crank_range_t), intent(in) :: range
+    type(covered_range_t), intent(in) :: range
     integer, intent(in) :: number
     real(wp) :: positions(number) !! [deg] or [m]
 
@@ -135,17 +174,17 @@ contains
 
   !> Half of the way of a range [rad] or [m].
   pure real(wp) function half_of(range)
-    type(crank_range_t), intent(in) :: range
+    type(covered_range_t), intent(in) :: range
 
-    half_of = 0.5_wp*(range%to - range%from)*range%unit
+    half_of = 0.5_wp*(range%to - range%from)*unit_of(range)
   end function half_of
 
   !> Where a position is in a range, from −1 to 1.
-  pure real(wp) function share_of(range, position)
-    type(crank_range_t), intent(in) :: range
+  pure real(wp) function place_in(range, position)
+    type(covered_range_t), intent(in) :: range
     real(wp), intent(in) :: position !! [deg] or [m]
 
-    share_of = (2.0_wp*position - range%from - range%to)/(range%to - range%from)
-  end function share_of
+    place_in = (2.0_wp*position - range%from - range%to)/(range%to - range%from)
+  end function place_in
 
 end module crank_laws

@@ -5,7 +5,7 @@ module path_grids
   use chebyshev_series, only: chebyshev_coefficients, chebyshev_value
   use chord_slopes, only: find_chord_slopes
   use constants, only: degree
-  use crank_laws, only: crank_range_t, share_of
+  use crank_laws, only: covered_range_t, place_in
   use deformation_model, only: deformation_model_t
   use errors, only: error_of_numerics, error_t, set_error
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, &
@@ -16,6 +16,7 @@ module path_grids
   use pin_displacements, only: chords_t, find_chords
   use poses, only: find_pose, pose_t
   use structures, only: structure_t
+  use text, only: to_string
   use turn_grids, only: find_slope, new_turn_grid, number_border, start_grid, take_chord, &
     take_pose, turn_grid_t
   implicit none (type, external)
@@ -30,6 +31,9 @@ module path_grids
   integer, parameter :: way_by_turn = 4
   real(wp), parameter :: enough = 1.0e-13_wp, most = 1.0e-9_wp
 
+  !> Rounding of a place in the range.
+  real(wp), parameter :: little = 1.0e-9_wp
+
   !> Terms of one kind: those of an array of the grid, or of a load case of it.
   type :: term_kind_t
     real(wp), pointer, contiguous :: values(:, :) => null() !! (samples, terms)
@@ -39,14 +43,14 @@ contains
 
   !> Room for the terms at crank angles anywhere, which `place_grid` gives.
   !!
-  !! Errors, of a linkage in parts: those of `new_turn_grid`; its terms have too many harmonics.
+  !! Errors, of a linkage in parts: those of `new_turn_grid`; its terms have too long series.
   subroutine new_path_grid(structure, model, samples, grid, error, range)
     class(structure_t), intent(in) :: structure    !! linkage and beams
     type(deformation_model_t), intent(in) :: model !! own deformations of its bodies
     integer, intent(in) :: samples                 !! crank angles
     type(turn_grid_t), intent(out) :: grid         !! for `place_grid`
     type(error_t), allocatable, intent(out) :: error
-    type(crank_range_t), intent(in), optional :: range !! positions between them; absent: a turn
+    type(covered_range_t), intent(in), optional :: range !! positions between them; absent: a turn
 
     if (allocated(structure%elastic)) then
       call find_series(structure, model, samples, grid, error, range)
@@ -77,8 +81,12 @@ contains
       do k = 1, size(crank)
         if (grid%range%is_turn) then
           call take_terms(value_at(grid%series, modulo(crank(k), 360.0_wp)*degree), k, kinds)
+        else if (abs(place_in(grid%range, crank(k))) <= 1.0_wp + little) then
+          call take_terms(chebyshev_value(grid%series, place_in(grid%range, crank(k))), k, kinds)
         else
-          call take_terms(chebyshev_value(grid%series, share_of(grid%range, crank(k))), k, kinds)
+          call set_error(error, error_of_numerics, "the law of the first drive swings faster "// &
+            "than the instants of TIME tell: expected more of them")
+          return
         end if
       end do
     else
@@ -118,7 +126,7 @@ contains
     integer, intent(in) :: samples
     type(turn_grid_t), intent(out) :: grid
     type(error_t), allocatable, intent(out) :: error
-    type(crank_range_t), intent(in), optional :: range
+    type(covered_range_t), intent(in), optional :: range
 
     type(fourier_plan_t) :: plan
     real(wp), allocatable :: terms(:, :), coefficients(:, :)
@@ -149,8 +157,9 @@ contains
       deallocate (coefficients)
     end do
     if (tail > most) then
-      call set_error(error, error_of_numerics, "the motion of the links changes too fast with "// &
-        "that of the first drive: a dead point is near")
+      call set_error(error, error_of_numerics, "the equations change too fast with the "// &
+        "position of the first drive for "//to_string(n)//" terms: a dead point is near, or "// &
+        "the way is very short")
       return
     end if
     grid%tail = tail

@@ -17,7 +17,7 @@ module turn_grids
   use border_rows, only: row_spring
   use chebyshev_series, only: chebyshev_slopes
   use coordinates, only: coordinate_rate
-  use crank_laws, only: crank_range_t, half_of, positions_of
+  use crank_laws, only: covered_range_t, half_of, positions_of
   use deformation_model, only: deformation_model_t
   use elastic_linkages, only: elastic_linkage_t
   use dense_eigensolver, only: solve_dense
@@ -66,10 +66,10 @@ module turn_grids
   end type damper_t
 
   type :: turn_grid_t
-    integer :: samples = 0   !! crank angles 0, 360°/n, …
+    integer :: samples = 0   !! positions, of a turn 0, 360°/n, …
     logical :: backwards = .false. !! the crank turns clockwise: crank angles 0, −360°/n, …, and
                                    !! derivatives, rates and loads per α2 are with respect to −θ2
-    type(crank_range_t) :: range !! positions that it is for
+    type(covered_range_t) :: range !! positions that it is for
     integer :: unknowns = 0
     integer :: border = 0    !! first unknowns: rotations of held ends, elongations
     type(deformation_model_t) :: model
@@ -141,7 +141,7 @@ contains
     type(turn_grid_t), intent(out) :: grid           !! complete unless `error` is allocated
     type(error_t), allocatable, intent(out) :: error !! why there is no grid
     logical, intent(in), optional :: backwards       !! the crank turns clockwise; absent: not
-    type(crank_range_t), intent(in), optional :: range !! positions that the grid is for, at
+    type(covered_range_t), intent(in), optional :: range !! positions that the grid is for, at
                                                      !! `positions_of`; absent: a turn
 
     type(assembled_t) :: here
@@ -692,7 +692,7 @@ contains
   !! whole turn needs no more.
   subroutine choose_pivots(structure, range, model, here, error)
     class(structure_t), intent(in) :: structure
-    type(crank_range_t), intent(in) :: range !! positions that they are for
+    type(covered_range_t), intent(in) :: range !! positions that they are for
     type(deformation_model_t), intent(in) :: model
     type(assembled_t), intent(inout) :: here !! its border gets them
     type(error_t), allocatable, intent(out) :: error

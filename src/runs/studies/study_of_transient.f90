@@ -1,5 +1,6 @@
 !> Elastic motions in time at all speeds.
 module study_of_transient
+  use full_turns, only: turns_fully
   use kinds, only: wp
   use mechanisms, only: link_lengths, mechanism_t
   use models, only: has_gauge_histories, has_law, model_t, report_number, speed_in_words
@@ -56,6 +57,8 @@ contains
           request%program = model%program
           request%time = model%time%value
         end if
+        if (allocated(mechanism%elastic)) request%turns_fully = turns_fully(mechanism%linkage, &
+          through=.false.)
         request%ramp = model%ramp
         request%crank = asked%crank
         request%turns = asked%turns
