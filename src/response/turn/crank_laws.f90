@@ -105,25 +105,24 @@ contains
         step = (ends(i + 1) - ends(i))/n
         do j = 0, n
           motion = crank_motion(law, ends(i) + j*step, inside)
-          call take(motion(0))
+          extremes = with(extremes, motion(0))
           if (j > 0) then
-            if (before(1)*motion(1) < 0.0_wp) call take(turning_point(law, ends(i) + &
-              (j - 1)*step, ends(i) + j*step, inside))
+            if (before(1)*motion(1) < 0.0_wp) extremes = with(extremes, turning_point(law, &
+              ends(i) + (j - 1)*step, ends(i) + j*step, inside))
           end if
           before = motion
         end do
       end do
     end do
-
-  contains
-
-    pure subroutine take(position)
-      real(wp), intent(in) :: position
-
-      extremes = [min(extremes(1), position), max(extremes(2), position)]
-    end subroutine take
-
   end function extremes_of
+
+  !> Extremes among which another position is.
+  pure function with(extremes, position)
+    real(wp), intent(in) :: extremes(2), position
+    real(wp) :: with(2)
+
+    with = [min(extremes(1), position), max(extremes(2), position)]
+  end function with
 
   !> The position between two times at which a drive turns back.
   pure real(wp) function turning_point(law, from, to, inside)
