@@ -561,6 +561,14 @@ for table in *.dat; do
         over=$new/over_time/
     fi
 done
+# An elastic motion by a law has the time behind the speed: it is one motion, whose speeds are not told apart.
+for table in transient.dat gauges.dat; do
+    if [ -z "$varied" ] && grep -qs '^# crank: by the law ' "$table"; then
+        mkdir -p "$new/over_time"
+        awk '!/^#/ && NF > 0 { $1 = 0 } 1' "$table" > "$new/over_time/$table"
+        over=$new/over_time/
+    fi
+done
 if [ -n "$over" ]; then
     law=$(sed -n "s/^DRIVE .* law=\([^ ]*\).*/\1/p" echo.deck 2> /dev/null | awk '!told[$0]++' | paste -s -d, - | sed 's/,/, /g' |
         awk "$quoting"'NR == 1 && $0 != "" { print quoted($0) }')

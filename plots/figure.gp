@@ -229,7 +229,7 @@ if (kind eq "friction") {
 # over a turn or in time. A pin has a row for each of its links, A:crank and A:coupler, of one displacement; links turn as much as
 # their points do, pins have two rotations. Points stand first.
 if (kind eq "displacements" || kind eq "transient") {
-    headline = kind eq "transient" ? "Elastic motion in time, up to ".moment : "Displacements of the elastic linkage against crank angle, ".moment
+    headline = kind eq "transient" ? "Elastic motion in time, ".up_to.moment : "Displacements of the elastic linkage against crank angle, ".moment
     if (kind eq "transient") { eval over("time", "time") }
     note = "elastic less rigid linkage, in global axes"
     points = displaced_points(table)
@@ -260,7 +260,7 @@ if (kind eq "strains" || kind eq "transient_strains" || kind eq "gauge") {
         eval rows_of("gauge")
         at_gauges = words(names) == 1 ? "at ".word(shown, 1)." " : kind eq "strains" ? "" : "at gauges "
         headline = kind eq "strains" ? sprintf("Strains and stress %sagainst crank angle, %s", at_gauges, moment) \
-            : "Strains and stress in time ".at_gauges[1:strlen(at_gauges) - 1].", up to ".moment
+            : "Strains and stress in time ".at_gauges[1:strlen(at_gauges) - 1].", ".up_to.moment
     }
     if (kind eq "transient_strains") { eval over("time", "time") }
     added = panel_of("bending strain", "µε", each("1e6*field('bending_strain')"), shown)

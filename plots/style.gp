@@ -137,6 +137,7 @@ at_place(crank, speed, unit) = stands ? "at rest" : of_cycle && !by_law ? at_cra
 
 # Of a drive with a law (law_name, which draw_figures.sh hands over) tables are over time.
 by_law = exists("law_name")
+up_to = by_law ? "" : "up to "
 against = by_law ? "against time" : "against crank angle"
 
 # Of a linkage that is no four-bar (is_cycle, which draw_figures.sh hands over) axes and titles name what the first DRIVE moves.
