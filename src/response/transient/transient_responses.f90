@@ -92,11 +92,8 @@ contains
 
     type(transient_request_t) :: of_bodies
     type(crank_law_t) :: law
-    type(covered_range_t) :: range
     integer :: k
 
-    range%is_angle = gives_angle(structure%linkage%drives(1))
-    range%is_turn = range%is_angle .and. request%turns_fully
     of_bodies = request
     if (allocated(structure%elastic)) of_bodies%response = request_of_parts(structure%elastic, &
       request%response)
@@ -105,7 +102,8 @@ contains
       if (was_interrupted()) exit
       law = crank_law_t(request%crank, request%response%speed(k), request%ramp)
       if (allocated(request%program)) law%program = request%program
-      law%range = range
+      law%range%is_angle = gives_angle(structure%linkage%drives(1))
+      law%range%is_turn = law%range%is_angle .and. request%turns_fully
       call find_transient(structure, of_bodies, law, store, transient%at_speed(k))
       if (allocated(structure%elastic)) call join_largest(structure%elastic, &
         size(structure%linkage%bodies), transient%at_speed(k)%deflection)
@@ -113,21 +111,19 @@ contains
   end subroutine find_transients
 
   !> Solutions one after another until two agree.
-  subroutine find_transient(structure, request, of_crank, store, found)
+  subroutine find_transient(structure, request, law, store, found)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
-    type(crank_law_t), intent(in) :: of_crank
+    type(crank_law_t), intent(inout) :: law !! its range becomes what the motion covers
     type(link_store_t), intent(inout) :: store
     type(speed_transient_t), intent(inout) :: found
 
-    type(crank_law_t) :: law
     type(deformation_model_t) :: model
     real(wp), allocatable :: older(:, :), before(:, :), series(:, :), missed(:)
     real(wp) :: accuracy, last_error
     integer :: round, idle, reached(2)
 
-    call find_instants(request, of_crank, found)
-    law = of_crank
+    call find_instants(request, law, found)
     if (.not. law%range%is_turn) call cover(structure, extremes_of(law, found%time), law%range)
     accuracy = request%response%accuracy
     found%order = first_order(accuracy)
