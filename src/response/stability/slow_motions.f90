@@ -58,20 +58,18 @@ module slow_motions
     !> (5 number, 5 number, samples of the coarse grid) of the fast deformations that follow; not
     !! there where they are left out
     real(wp), allocatable :: products(:, :, :)
-    !> (samples, number², 2) M and XᵀX, with the followers only
-    real(wp), allocatable :: form(:, :, :)
+    real(wp), allocatable :: mass(:, :)           !! (samples, number²) M, with the followers only
   end type slow_basis_t
 
   integer, parameter :: of_mass = 1      !! M
   integer, parameter :: of_g = 2         !! G
   integer, parameter :: of_w = 3         !! W
-  integer, parameter :: of_stiffness = 4 !! XᵀX
-  integer, parameter :: of_speed = 5     !! XᵀK_GX per ω2²
-  integer, parameter :: of_loads = 6     !! XᵀK_GX of the constant loads
-  integer, parameter :: of_slope = 7     !! G'
-  integer, parameter :: of_rate = 8      !! XᵀCX
-  integer, parameter :: of_drift = 9     !! XᵀCX', and XᵀK_GX per ω2 of dampers
-  integer, parameter :: matrices = 9
+  integer, parameter :: of_speed = 4     !! XᵀK_GX per ω2²
+  integer, parameter :: of_loads = 5     !! XᵀK_GX of the constant loads
+  integer, parameter :: of_slope = 6     !! G'
+  integer, parameter :: of_rate = 7      !! XᵀCX
+  integer, parameter :: of_drift = 8     !! XᵀCX', and XᵀK_GX per ω2 of dampers
+  integer, parameter :: matrices = 8
 
   !> Load cases whose axial forces are in K_G, and the sums that have it.
   integer, parameter :: case_of_sum(*) = [1, constant_case, rate_case]
@@ -98,8 +96,8 @@ module slow_motions
     complex(wp), allocatable :: start(:)       !! (2 number) coordinates and momenta at the first
                                                !! crank angle
     logical :: is_complex = .false.            !! its conjugate is another
-    real(wp) :: frequency = 0.0_wp             !! of the shape there, `√(zᴴXᵀX z/zᴴM z)` [rad/s]
-    real(wp) :: shape_frequency = 0.0_wp       !! over the turn, `√(∮zᴴXᵀX z/∮zᴴM z)` [rad/s]
+    real(wp) :: frequency = 0.0_wp             !! of the shape there, `√(zᴴz/zᴴM z)` [rad/s]
+    real(wp) :: shape_frequency = 0.0_wp       !! over the turn, `√(∮zᴴz/∮zᴴM z)` [rad/s]
     real(wp) :: action = 0.0_wp                !! about 1 or −1 by the Krein signature, 0 at
                                                !! collisions
   end type slow_mode_t
@@ -210,9 +208,8 @@ contains
     subroutine add_what_follows
       if (number < coarse%unknowns .and. .not. allocated(coarse%pieces)) call &
         follower_products(coarse, coarse_plan, shape, basis%products)
-      allocate (basis%form(plan%samples, number**2, 2))
-      call resample(coarse_plan, basis%sums(:, :, of_mass), plan, basis%form(:, :, 1))
-      call resample(coarse_plan, basis%sums(:, :, of_stiffness), plan, basis%form(:, :, 2))
+      allocate (basis%mass(plan%samples, number**2))
+      call resample(coarse_plan, basis%sums(:, :, of_mass), plan, basis%mass)
     end subroutine add_what_follows
 
   end subroutine new_slow_basis
@@ -349,7 +346,7 @@ contains
     end do
   end function is_resolved
 
-  !> M, G, W, XᵀX and XᵀK_GX of the slow coordinates.
+  !> M, G, W and XᵀK_GX of the slow coordinates.
   subroutine find_matrices(grid, plan, shape, sums)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
@@ -378,7 +375,6 @@ contains
       end associate
     end do
     call add_pins(grid, plan, shape, sums)
-    call add_products(shape, shape, sums(:, :, of_stiffness))
     do b = 1, size(grid%integrals)
       call add_axial(grid, b, shape, sums)
     end do
@@ -607,7 +603,7 @@ contains
         at_stage(:, c, i, :) = transpose(values)
       end do
     end do
-    motion%scale = sqrt(sum(abs(total(1, 1::m + 1, 1)))*mean_stiffness(basis))/(m*abs(speed))
+    motion%scale = sqrt(sum(abs(total(1, 1::m + 1, 1)))/m)/abs(speed)
     allocate (motion%transfer(2*m, 2*m, n), motion%response(2*m, m*stages, n))
     do k = 1, n
       call make_step(motion, k, at_stage(:, :, :, k))
@@ -651,8 +647,9 @@ contains
     allocate (values(n, m**2, 4), total(samples, m**2, 4))
     associate (sums => basis%sums)
       values(:, :, 1:2) = sums(:, :, [of_mass, of_g])
-      values(:, :, 3) = sums(:, :, of_w) - sums(:, :, of_speed) - (sums(:, :, of_stiffness) + &
-        sums(:, :, of_loads))/speed**2 - sums(:, :, of_drift)/speed
+      values(:, :, 3) = sums(:, :, of_w) - sums(:, :, of_speed) - sums(:, :, of_loads)/speed**2 - &
+        sums(:, :, of_drift)/speed
+      values(:, 1::m + 1, 3) = values(:, 1::m + 1, 3) - 1.0_wp/speed**2
       values(:, :, 4) = sums(:, :, of_rate)/speed
       if (allocated(basis%products)) then
         do k = 1, n
@@ -672,14 +669,6 @@ contains
     call close_fourier(plan)
   end subroutine matrices_at_speed
 
-  !> Mean of the trace of XᵀX over the turn.
-  pure function mean_stiffness(basis) result(mean)
-    type(slow_basis_t), intent(in) :: basis
-    real(wp) :: mean
-
-    mean = sum(basis%sums(:, 1::basis%number + 1, of_stiffness))/size(basis%sums, 1)
-  end function mean_stiffness
-
   !> Mass, stiffness and damping matrix of the linkage frozen at a sample of the coarse grid, under
   !! the axial forces of a speed.
   pure subroutine frozen_matrices(basis, speed, sample, mass, stiffness, damping, alone)
@@ -692,15 +681,18 @@ contains
     logical, intent(in), optional :: alone      !! without followers; absent: with them
 
     logical :: follow
+    integer :: i
 
     follow = allocated(basis%products)
     if (present(alone)) follow = follow .and. .not. alone
     associate (sums => basis%sums(sample, :, :), m => basis%number)
       if (present(damping)) damping = reshape(sums(:, of_rate), [m, m])
       mass = reshape(sums(:, of_mass), [m, m])
-      stiffness = reshape(sums(:, of_stiffness) + speed**2*sums(:, of_speed) + sums(:, of_loads), &
-        [m, m])
+      stiffness = reshape(speed**2*sums(:, of_speed) + sums(:, of_loads), [m, m])
     end associate
+    do i = 1, basis%number
+      stiffness(i, i) = stiffness(i, i) + 1.0_wp
+    end do
     if (follow) stiffness = stiffness - frozen_stiffness(basis%products(:, :, sample), speed, &
       mass, stiffness)
   end subroutine frozen_matrices
@@ -826,13 +818,12 @@ contains
 
     real(wp) :: a(2*motion%number, 2*motion%number), vectors(2*motion%number, 2*motion%number)
     real(wp) :: re(2*motion%number), im(2*motion%number), work(32*motion%number), none(1, 1)
-    real(wp), dimension(motion%number, motion%number) :: mass, stiffness
+    real(wp) :: mass(motion%number, motion%number)
     integer :: i, m, n, number, info
 
     m = motion%number
     n = 2*m
     mass = reshape(basis%sums(1, :, of_mass), [m, m])
-    stiffness = reshape(basis%sums(1, :, of_stiffness), [m, m])
     a = motion%monodromy
     call dgeev("N", "V", n, a, n, re, im, none, 1, vectors, n, work, size(work), info)
     if (info /= 0 .or. .not. all(hypot(re, im) <= huge(re))) then
@@ -854,15 +845,15 @@ contains
         associate (z => mode%start(:m))
           ! Where nothing at all is left, vectors may be momenta without displacements.
           mode%frequency = 0.0_wp
-          if (any(abs(z) > 0.0_wp)) mode%frequency = sqrt(real(dot_product(z, matmul(stiffness, &
-            z)))/real(dot_product(z, matmul(mass, z))))
+          if (any(abs(z) > 0.0_wp)) mode%frequency = sqrt(real(dot_product(z, z))/ &
+            real(dot_product(z, matmul(mass, z))))
         end associate
       end associate
     end do
   end subroutine slow_modes
 
   !> Adds frequencies of shapes over the turn, and actions `ω Im(zᴴp)` over the root of
-  !! `∮zᴴXᵀX z ∮zᴴM z`: without damping the first is the same at all angles.
+  !! `∮zᴴz ∮zᴴM z`: without damping the first is the same at all angles.
   pure subroutine add_shape_frequencies(basis, motion, speed, modes)
     type(slow_basis_t), intent(in) :: basis        !! with its followers
     type(slow_motion_t), intent(in) :: motion      !! of these coordinates
@@ -873,7 +864,7 @@ contains
     real(wp) :: state(2*motion%number, 2, size(modes)), z(motion%number, 2, size(modes))
     real(wp), dimension(motion%number, 2*size(modes)) :: product
     real(wp) :: form(2, size(modes))
-    integer :: c, i, k, m
+    integer :: i, k, m
 
     m = motion%number
     do i = 1, size(modes)
@@ -886,11 +877,9 @@ contains
         z(:, :, i) = parts_of_product(exp(-modes(i)%exponent*two_pi*(k - 1)/motion%steps), &
           state(:m, 1, i), state(:m, 2, i))
       end do
-      do c = 1, 2
-        product = matmul(reshape(basis%form(k, :, c), [m, m]), reshape(z, [m, 2*size(modes)]))
-        do i = 1, size(modes)
-          form(c, i) = form(c, i) + sum(z(:, :, i)*product(:, 2*i - 1:2*i))
-        end do
+      product = matmul(reshape(basis%mass(k, :), [m, m]), reshape(z, [m, 2*size(modes)]))
+      do i = 1, size(modes)
+        form(:, i) = form(:, i) + [sum(z(:, :, i)*product(:, 2*i - 1:2*i)), sum(z(:, :, i)**2)]
       end do
       state = reshape(matmul(motion%transfer(:, :, k), reshape(state, [2*m, 2*size(modes)])), &
         shape(state))
