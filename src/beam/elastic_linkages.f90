@@ -6,6 +6,8 @@
 !! point of the link under the block, and masses and forces on the same way. An end of a part is a
 !! hinge, or it is held: it turns with a rotation, which other parts may share (a corner, a cut, a
 !! weld, a block that does not turn, a spring), or not at all (at a drive).
+!!
+!! Of a crank and dyads of binary links every link is a part, and its pins move in closed form.
 module elastic_linkages
   use applied_load_types, only: applied_load_t, applies_along, is_torsional
   use beam_mesh, only: beam_t
@@ -19,7 +21,7 @@ module elastic_linkages
   implicit none (type, external)
   private
 
-  public :: elastic_linkage_t, spring_t, new_elastic_linkage, needs_parts, scaled_link, &
+  public :: elastic_linkage_t, spring_t, new_elastic_linkage, scaled_link, &
     is_piece, add_couple, fixed_rotation, spring_pin, shared_pin
 
   !> Of an end that cannot turn.
@@ -37,6 +39,8 @@ module elastic_linkages
   !> Parts, points and rotations.
   type :: elastic_linkage_t
     type(linkage_t) :: linkage                !! bodies: parts; pins: points
+    logical :: in_closed_form = .false.       !! a crank and dyads of binary links, all held by
+                                              !! their pins alone: these move in closed form
     type(beam_t), allocatable :: beams(:)     !! (parts)
     integer, allocatable :: body(:)           !! (parts) number of the link
     real(wp), allocatable :: place(:, :)      !! (2, parts) of the first point, from the first pin
@@ -65,17 +69,15 @@ module elastic_linkages
 
 contains
 
-  !> Whether a linkage is more than a crank and dyads of binary links, all held by their pins alone,
-  !! whose pins move in closed form.
-  pure function needs_parts(linkage) result(needs)
+  !> Whether a linkage is a crank and dyads of binary links, all held by their pins alone.
+  pure function moves_in_closed_form(linkage) result(moves)
     type(linkage_t), intent(in) :: linkage !! planned, with its loads
-    logical :: needs
+    logical :: moves
 
-    needs = .not. is_dyad_linkage(linkage)
-    if (.not. needs) needs = any(linkage%drives%is_free)
-    if (.not. needs .and. allocated(linkage%loads)) needs = any(linkage%loads%stiffness > 0.0_wp &
+    moves = is_dyad_linkage(linkage) .and. .not. any(linkage%drives%is_free)
+    if (moves .and. allocated(linkage%loads)) moves = .not. any(linkage%loads%stiffness > 0.0_wp &
       .or. is_tension(linkage%loads) .or. is_damper(linkage%loads))
-  end function needs_parts
+  end function moves_in_closed_form
 
   !> Whether a load is a spring whose force does not change.
   elemental function is_tension(load) result(is)
@@ -102,6 +104,7 @@ contains
     call add_points(linkage, elastic)
     call add_parts(linkage, beams, elastic)
     call add_rotations(linkage, elastic)
+    elastic%in_closed_form = moves_in_closed_form(linkage)
   end function new_elastic_linkage
 
   !> Whether the length of a part of a link that bends, and its ends, are those of the position.

@@ -2,7 +2,7 @@
 !! that are not free are clamped to what they turn against.
 module structures
   use beam_mesh, only: beam_mesh_t, beam_t, new_beam_mesh
-  use elastic_linkages, only: elastic_linkage_t, new_elastic_linkage
+  use elastic_linkages, only: elastic_linkage_t
   use errors, only: error_t
   use kinds, only: wp
   use linkages, only: linkage_t
@@ -11,8 +11,7 @@ module structures
   private
 
   public :: structure_t, in_parts, has_many_parts, has_beams, has_mesh, has_elastic_reactions, &
-    holds_at_change_points, find_structure_pose, damper_count, elements_replaced, &
-    vibrating_linkage, vibrating_beams
+    holds_at_change_points, find_structure_pose, elements_replaced
 
   !> A linkage with the beams and the mesh of its links.
   type :: structure_t
@@ -24,8 +23,7 @@ module structures
     integer, allocatable :: load_elements(:) !! (bodies) elements whose nodes carry the lumped mass
                                              !! in inertia loads; 0: distributed mass, and links
                                              !! without nodes
-    type(elastic_linkage_t), allocatable :: elastic !! the parts that vibrate; not allocated: binary
-                                             !! links and pins, each link is a part
+    type(elastic_linkage_t) :: elastic       !! the parts that vibrate; empty without beams
   end type structure_t
 
   !> Number of parts from which the mixed form is faster than a border, and of binary links from
@@ -55,7 +53,7 @@ contains
     class(structure_t), intent(in) :: structure !! with or without beams
     logical :: has
 
-    has = size(structure%linkage%redundancies) > 0 .and. allocated(structure%elastic)
+    has = size(structure%linkage%redundancies) > 0 .and. has_beams(structure)
   end function has_elastic_reactions
 
   !> Whether parts that bend may hold a structure at its change points.
@@ -83,7 +81,7 @@ contains
     end if
   end subroutine find_structure_pose
 
-  !> The structure whose frequencies are found: of many binary links, too, each is a part.
+  !> The structure whose frequencies are found: of many binary links closed forms take too long.
   pure function in_parts(structure, modes) result(divided)
     class(structure_t), intent(in) :: structure !! with beams
     integer, intent(in) :: modes                !! wanted
@@ -93,27 +91,21 @@ contains
     divided%beams = structure%beams
     divided%mesh = structure%mesh
     divided%load_elements = structure%load_elements
-    if (allocated(structure%elastic)) then
-      divided%elastic = structure%elastic
-    else if (are_many(size(structure%beams), many_links, modes)) then
-      divided%elastic = new_elastic_linkage(structure%linkage, structure%beams)
-    end if
+    divided%elastic = structure%elastic
+    if (are_many(size(structure%beams), many_links, modes)) divided%elastic%in_closed_form = .false.
   end function in_parts
 
   !> Whether the equations of a linkage are solved in mixed form: it has so many parts that the cube
   !! of their number counts, no motion is free, and no damper acts.
   pure function has_many_parts(structure, modes) result(has)
-    class(structure_t), intent(in) :: structure !! with or without parts
+    class(structure_t), intent(in) :: structure !! with parts
     integer, intent(in) :: modes                !! wanted; 0: statics
     logical :: has
 
-    has = allocated(structure%elastic)
-    if (.not. has) return
     associate (parts => structure%elastic%linkage)
-      has = are_many(size(parts%bodies), many_parts, modes) .and. &
-        .not. any(parts%drives%is_free) .and. &
-        size(structure%elastic%dampers) == 0 .and. .not. any(parts%bodies%bends .and. &
-        parts%bodies%line_density <= 0.0_wp)
+      has = .not. structure%elastic%in_closed_form .and. are_many(size(parts%bodies), many_parts, &
+        modes) .and. .not. any(parts%drives%is_free) .and. size(structure%elastic%dampers) == 0 &
+        .and. .not. any(parts%bodies%bends .and. parts%bodies%line_density <= 0.0_wp)
     end associate
   end function has_many_parts
 
@@ -123,15 +115,6 @@ contains
 
     are_many = parts*many_modes >= least*(many_modes + modes)
   end function are_many
-
-  !> Number of dampers between parts.
-  pure function damper_count(structure) result(number)
-    class(structure_t), intent(in) :: structure !! with or without parts
-    integer :: number
-
-    number = 0
-    if (allocated(structure%elastic)) number = size(structure%elastic%dampers)
-  end function damper_count
 
   !> The same structure with other numbers of elements; lumped loads follow them.
   pure function elements_replaced(structure, elements) result(other)
@@ -145,29 +128,5 @@ contains
     end associate
     where (structure%load_elements > 0) other%load_elements = elements
   end function elements_replaced
-
-  !> The linkage whose bodies vibrate each by themselves: the parts of a linkage that has them.
-  pure function vibrating_linkage(structure) result(linkage)
-    class(structure_t), intent(in) :: structure !! with beams
-    type(linkage_t) :: linkage
-
-    if (allocated(structure%elastic)) then
-      linkage = structure%elastic%linkage
-    else
-      linkage = structure%linkage
-    end if
-  end function vibrating_linkage
-
-  !> Stiffnesses of the bodies of `vibrating_linkage`.
-  pure function vibrating_beams(structure) result(beams)
-    class(structure_t), intent(in) :: structure !! with beams
-    type(beam_t), allocatable :: beams(:)       !! (bodies)
-
-    if (allocated(structure%elastic)) then
-      beams = structure%elastic%beams
-    else
-      beams = structure%beams
-    end if
-  end function vibrating_beams
 
 end module structures

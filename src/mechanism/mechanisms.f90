@@ -13,7 +13,7 @@ module mechanisms
   use beam_mesh, only: new_beam_mesh
   use four_bar_loops, only: find_four_bar, four_bar_t
   use coordinate_builder, only: build_coordinates, listed_coordinate_t
-  use elastic_linkages, only: needs_parts, new_elastic_linkage
+  use elastic_linkages, only: new_elastic_linkage
   use friction_builder, only: frictions_of
   use kinds, only: wp
   use link_cards, only: has_own_mass, link_t
@@ -28,7 +28,7 @@ module mechanisms
   use shear, only: link_rotary_inertia, link_shear_stiffness
   use spring_builder, only: springs_of
   use stop_builder, only: stops_of
-  use structures, only: structure_t
+  use structures, only: has_beams, structure_t
   use text, only: string_t
   use tokens, only: token_texts
   use torsion, only: out_of_plane_second_moment, torsion_constant
@@ -101,8 +101,8 @@ contains
     call build_coordinates(model, assembly%link, pins, mechanism%linkage, mechanism%coordinates)
     call append_loads(stops_of(model, mechanism%linkage), mechanism%linkage)
     mechanism%linkage%frictions = frictions_of(model, assembly%link, pins, mechanism%linkage)
-    if (size(mechanism%beams) > 0 .and. needs_parts(mechanism%linkage)) mechanism%elastic = &
-      new_elastic_linkage(mechanism%linkage, mechanism%beams)
+    if (has_beams(mechanism)) mechanism%elastic = new_elastic_linkage(mechanism%linkage, &
+      mechanism%beams)
     mechanism%points = points_of(model, assembly%link, mechanism%linkage)
     mechanism%response_points = response_points_of(model, assembly%link, assembly%pins, &
       mechanism%linkage)

@@ -5,6 +5,7 @@ module plan_words
     group_driven_dyad, group_dyad, group_on_line, group_placed, group_spanned, &
     group_through_pin, group_turned, group_two_lines
   use mechanisms, only: mechanism_t
+  use structures, only: has_beams
   use text, only: append_string, plural, string_t, to_string
   implicit none (type, external)
   private
@@ -36,7 +37,7 @@ contains
       if (size(linkage%redundancies) > 0) call append_string(notes, "redundant: "// &
         plural(size(linkage%redundancies), "condition")// &
         " more than needed; "//trim(merge("elasticity divides the forces between links  ", &
-        "forces between links cannot be told apart    ", allocated(mechanism%elastic))))
+        "forces between links cannot be told apart    ", has_beams(mechanism))))
     end associate
   end function plan_notes
 

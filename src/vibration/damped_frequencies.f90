@@ -43,10 +43,8 @@ contains
   !! loads also of −|s|², and their estimated errors are added.
   !!
   !! Errors, in `result%outcome`: those of `find_damped_modes`.
-  subroutine solve_damped_speed(structure, model, state, request, factor, speed, undamped, work, &
-      result)
+  subroutine solve_damped_speed(structure, state, request, factor, speed, undamped, work, result)
     type(structure_t), intent(in) :: structure     !! with dampers
-    type(deformation_model_t), intent(in) :: model !! of its parts at this position
     type(state_t), intent(in) :: state             !! with a pose
     type(mode_request_t), intent(in) :: request
     real(wp), intent(in) :: factor(:)              !! (cases) of the unit loads
@@ -65,7 +63,8 @@ contains
     associate (equations => work%continuum%equations, dampers => structure%elastic%dampers)
       call set_speed(equations, factor)
       call find_damped_modes(equations%pencil, work%here%damper_rows, dampers%damping, &
-        request%modes, undamped, modes_for_dampers(structure, model, request%modes), found, error)
+        request%modes, undamped, modes_for_dampers(structure, work%here%model, request%modes), &
+        found, error)
     end associate
     result%counts%factorizations = result%counts%factorizations + found%solutions
     if (allocated(error)) then
@@ -76,14 +75,13 @@ contains
     modes = size(found%s)
     allocate (orders(modes), rounding(modes), of_matrices(modes))
     parts = parts_of_roots(found, 1.0_wp)
-    call find_errors(structure, model, state, factor, parts, work, result, orders, rounding, &
-      of_matrices)
+    call find_errors(structure, state, factor, parts, work, result, orders, rounding, of_matrices)
     if (work%continuum%equations%pencil%loaded) then
       parts = parts_of_roots(found, -1.0_wp)
       block
         real(wp), dimension(modes) :: more_orders, more_rounding, more_of_matrices
 
-        call find_errors(structure, model, state, factor, parts, work, result, more_orders, &
+        call find_errors(structure, state, factor, parts, work, result, more_orders, &
           more_rounding, more_of_matrices)
         orders = max(orders, more_orders)
         rounding = max(rounding, more_rounding)
@@ -124,8 +122,8 @@ contains
     if (maxval(result%error(:, speed)) > request%accuracy) result%cause(speed) = &
       largest_error(orders(:request%modes), rounding(:request%modes), &
       of_matrices(:request%modes) + found%error(:request%modes), &
-      elastic_squares(model%layout, real(found%vector(:, :request%modes), wp)) + &
-      elastic_squares(model%layout, aimag(found%vector(:, :request%modes))), &
+      elastic_squares(work%here%model%layout, real(found%vector(:, :request%modes), wp)) + &
+      elastic_squares(work%here%model%layout, aimag(found%vector(:, :request%modes))), &
       abs(found%s(:request%modes))**2)
   end subroutine solve_damped_speed
 
@@ -148,10 +146,9 @@ contains
   end function parts_of_roots
 
   !> Relative errors of these eigenvalues, both parts together.
-  subroutine find_errors(structure, model, state, factor, parts, work, result, orders, rounding, &
+  subroutine find_errors(structure, state, factor, parts, work, result, orders, rounding, &
       of_matrices)
     type(structure_t), intent(in) :: structure
-    type(deformation_model_t), intent(in) :: model
     type(state_t), intent(in) :: state
     real(wp), intent(in) :: factor(:)
     type(bordered_modes_t), intent(in) :: parts
@@ -163,7 +160,8 @@ contains
     integer :: n
 
     n = size(parts%lambda)
-    associate (unit_force => work%here%unit_force, equations => work%continuum%equations)
+    associate (unit_force => work%here%unit_force, equations => work%continuum%equations, &
+        model => work%here%model)
       of_orders = sum(order_error(model, equations, total_force(unit_force, factor), parts, n), &
         dim=1)
       call find_matrix_errors(model, equations%chords, axial_sizes(work%here, factor), parts, n, &

@@ -87,7 +87,6 @@ contains
         linkage%drives%is_free = .false.
       end if
     end associate
-    allocate (division%structure%elastic)
     division%structure%elastic = new_elastic_linkage(released, structure%beams)
     call take_statics(structure%load_elements, division%structure%elastic)
     call new_elastic_model(division%structure, division%model, error, crank)

@@ -1,7 +1,5 @@
-!> Everything about a linkage at a position that its vibration needs, for a number of speeds: of
-!! binary links and pins from closed forms, of any other linkage from its parts.
+!> Everything about a linkage at a position that its vibration needs, for a number of speeds.
 module position_assembly
-  use axial_forces, only: distributed_unit_forces
   use axial_limits, only: refuse_crushed
   use border_rows, only: damper_rows
   use bordered_matrix, only: new_bordered_layout
@@ -18,12 +16,11 @@ module position_assembly
   use mixed_positions, only: assemble_rest, find_mixed_forces, hold, mixed_position_t, &
     new_mixed_position, stiffen
   use part_displacements, only: border_size, border_t, find_part_chords, new_border
-  use part_forces, only: find_part_forces, part_forces_t
+  use part_forces, only: find_dyad_forces, find_part_forces, part_forces_t
   use part_poses, only: find_part_loads, part_loads_t, place_parts_of
   use pin_displacements, only: chords_t
   use poses, only: pose_t
-  use position_equations, only: assemble_equations, assemble_mass, assemble_unit_loads, &
-    position_equations_t
+  use position_equations, only: assemble_mass, assemble_unit_loads, position_equations_t
   use structures, only: find_structure_pose, has_many_parts, structure_t
   implicit none (type, external)
   private
@@ -31,16 +28,16 @@ module position_assembly
   public :: assembled_t, new_assembled, assemble_position, choose_form, set_border, place_parts, &
     load_parts, load_mixed
 
-  !> A linkage at a position. Of binary links and pins there are only `loads` and `unit_force`.
+  !> A linkage at a position.
   type :: assembled_t
     type(unit_loads_t) :: loads                  !! of this pose
     real(wp), allocatable :: unit_force(:, :, :) !! (force functions, parts, cases) axial forces of
                                                  !! the unit loads [N]
-    type(elastic_linkage_t), allocatable :: elastic !! its parts here
-    type(deformation_model_t), allocatable :: model !! their own modes here
-    type(pose_t), allocatable :: pose            !! of points and parts
-    type(part_loads_t), allocatable :: part_loads
-    type(part_forces_t), allocatable :: part_forces
+    type(elastic_linkage_t) :: elastic           !! its parts here
+    type(deformation_model_t) :: model           !! their own modes here
+    type(pose_t) :: pose                         !! of points and parts
+    type(part_loads_t) :: part_loads
+    type(part_forces_t) :: part_forces
     type(border_t), allocatable :: border        !! of few links
     type(mixed_position_t), allocatable :: mixed !! of many
     real(wp), allocatable :: damper_rows(:, :)   !! (border, dampers) velocity of each for unit
@@ -55,7 +52,6 @@ contains
     type(deformation_model_t), intent(in) :: model !! of its parts
     type(assembled_t) :: here
 
-    if (.not. allocated(structure%elastic)) return
     here%elastic = structure%elastic
     here%model = model
     if (model%mixed) then
@@ -63,7 +59,6 @@ contains
     else
       here%border = new_border(structure%elastic, model%links)
     end if
-    allocate (here%pose, here%part_loads, here%part_forces)
   end function new_assembled
 
   !> Chooses the form of the equations of a model: mixed where there are many parts, and conditions
@@ -96,7 +91,8 @@ contains
     call set_border(structure, crank, model)
   end subroutine choose_form
 
-  !> Gives a model the border of its linkage, as it is at most of some positions.
+  !> Gives a model the border of its linkage, as it is at most of some positions. That of closed
+  !! forms is as the model has it.
   subroutine set_border(structure, crank, model)
     class(structure_t), intent(in) :: structure         !! of parts
     real(wp), intent(in) :: crank(:)                   !! of the first drive [deg] or [m]
@@ -107,6 +103,7 @@ contains
     type(error_t), allocatable :: error
     integer :: i, unknowns, free, least
 
+    if (structure%elastic%in_closed_form) return
     here = new_assembled(structure, model)
     least = huge(least)
     do i = 1, size(crank)
@@ -144,13 +141,6 @@ contains
 
     here%loads = find_unit_loads(structure%linkage, pose, coefficients, any(abs(factor) > 0.0_wp, &
       dim=2))
-    if (.not. allocated(structure%elastic)) then
-      here%unit_force = distributed_unit_forces(structure%linkage, pose, here%loads)
-      call refuse_crushed(structure%linkage, model, here%unit_force, factor, outcome)
-      call assemble_equations(structure%linkage, model, pose, here%unit_force, factor, equations, &
-        counts)
-      return
-    end if
     if (allocated(here%mixed)) then
       call load_mixed(structure, model, pose, .true., here, error)
     else
@@ -187,21 +177,30 @@ contains
   !> Places the parts, and finds what the border unknowns do to them and the forces in them.
   !!
   !! Errors: those of `place_parts` and `find_part_chords`.
-  subroutine load_parts(structure, model, pose, here, chords, error)
+  subroutine load_parts(structure, model, pose, here, chords, error, in_motion)
     class(structure_t), intent(in) :: structure      !! with parts
     type(deformation_model_t), intent(in) :: model   !! of these, with a border
     type(pose_t), intent(in) :: pose                 !! of the linkage that moves
     type(assembled_t), intent(inout) :: here         !! of this model, with the loads of this pose
     type(chords_t), intent(inout) :: chords          !! of the border unknowns
     type(error_t), allocatable, intent(out) :: error
+    logical, intent(in), optional :: in_motion       !! the linkage moves; absent: it is held
 
     call place_parts(structure, model, pose, here, error)
     if (allocated(error)) return
     call find_part_chords(structure%linkage, here%elastic, here%model%links, here%pose, &
       model%layout%border, model%layout%free, any(here%loads%occurs), here%border, chords, error)
     if (allocated(error)) return
-    call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
-      here%part_loads)
+    if (any(here%loads%occurs) .or. .not. here%elastic%in_closed_form) call find_part_loads( &
+      structure%linkage, pose, here%loads, here%elastic, here%pose, here%part_loads)
+    if (here%elastic%in_closed_form) then
+      call find_dyad_forces(structure%linkage, pose, here%loads, here%model%links, chords, &
+        here%part_forces)
+      return
+    end if
+    ! Of blocks: their I ω² of the second order is that of a linkage at rest. In motion it would
+    ! cancel with a centripetal term, for ½ I (ω + θ')² has no θ², and both are left out.
+    if (present(in_motion)) here%part_loads%carried(4, :, :) = 0.0_wp
     call find_part_forces(structure%linkage, here%elastic, here%model%links, here%pose, &
       here%part_loads, here%border, chords, here%part_forces)
   end subroutine load_parts

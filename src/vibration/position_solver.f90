@@ -2,16 +2,13 @@
 !! estimated error.
 module position_solver
   use axial_forces, only: total_force
-  use border_loads, only: border_work
   use bordered_eigensolver, only: bordered_modes_t
   use bordered_pencil, only: elastic_squares
   use damped_frequencies, only: modes_for_dampers, solve_damped_speed
-  use deformation_model, only: deformation_model_t
-  use elastic_linkages, only: is_piece
+  use elastic_linkages, only: elastic_linkage_t, is_piece
   use errors, only: outcome_t
   use kinds, only: wp
   use link_modes, only: stations
-  use linkages, only: linkage_t
   use load_cases, only: case_count
   use load_sizes, only: axial_sizes, second_order_work
   use massless_links, only: refuse_missing_modes
@@ -22,7 +19,6 @@ module position_solver
   use order_errors, only: order_error, with_modes_above
   use pin_displacements, only: chords_t
   use pose_rounding, only: pose_error
-  use poses, only: pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
   use position_modes, only: modes_of_position, prints_of_position, yields_of_position
   use position_results, only: frequency_error, largest_error, position_result_t, position_work_t
@@ -30,7 +26,7 @@ module position_solver
   use reduced_deflections, only: reduced_deflection
   use shape_samples, only: sample_reduced
   use speed_solver, only: new_speed_work, solve_speeds
-  use structures, only: damper_count, structure_t
+  use structures, only: structure_t
   use vibration_models, only: by_band, by_dense, by_link_modes, by_orders, &
     load_factors, mode_request_t, vibration_models_t
   implicit none (type, external)
@@ -79,24 +75,19 @@ contains
     allocate (result%deflection(size(structure%beams), n))
     result%lambda = 0.0_wp
     result%error = 0.0_wp
-    if (damper_count(structure) > 0) allocate (result%damping(request%modes, n), source=0.0_wp)
+    if (size(structure%elastic%dampers) > 0) allocate (result%damping(request%modes, n), &
+      source=0.0_wp)
     result%deflection = 0.0_wp
     allocate (result%cause(n))
     result%cause = 0
     call assemble_position(structure, models%continuum, state%pose, state%coefficients, &
       load_factors(request), work%continuum%equations, work%here, result%outcome, result%counts)
-    if (allocated(structure%elastic)) then
-      if (all_failed(result%outcome)) return
-      ! The basis of the border has turned: modes of the last positions are in another one.
-      if (allocated(work%here%border)) then
-        if (work%here%border%is_new) work%continuum%tracks%length = 0
-      end if
-      call solve_assembled(structure, models, work%here%elastic%linkage, work%here%model, &
-        work%here%pose, state, request, want_shapes, work, result)
-    else
-      call solve_assembled(structure, models, structure%linkage, models%continuum, state%pose, &
-        state, request, want_shapes, work, result)
+    if (all_failed(result%outcome)) return
+    ! The basis of the border has turned: modes of the last positions are in another one.
+    if (allocated(work%here%border)) then
+      if (work%here%border%is_new) work%continuum%tracks%length = 0
     end if
+    call solve_assembled(structure, models, state, request, want_shapes, work, result)
   end subroutine solve_position
 
   !> Whether there are errors at all speeds.
@@ -113,14 +104,10 @@ contains
   end function all_failed
 
   !> Solves a position that is assembled.
-  subroutine solve_assembled(structure, models, linkage, model, pose, state, request, want_shapes, &
-    work, result)
+  subroutine solve_assembled(structure, models, state, request, want_shapes, work, result)
     type(structure_t), intent(in) :: structure
     type(vibration_models_t), intent(in) :: models
-    type(linkage_t), intent(in) :: linkage          !! whose bodies are the links of the model
-    type(deformation_model_t), intent(in) :: model  !! of continuous links at this position
-    type(pose_t), intent(in) :: pose                !! of this linkage
-    type(state_t), intent(in) :: state              !! of the linkage that moves
+    type(state_t), intent(in) :: state
     type(mode_request_t), intent(in) :: request
     logical, intent(in) :: want_shapes(:)
     type(position_work_t), intent(inout) :: work
@@ -129,39 +116,42 @@ contains
     type(bordered_modes_t), allocatable :: found(:)
     type(bordered_modes_t) :: modes
     real(wp) :: factor(case_count, size(request%speed))
-    integer :: k, n
+    logical :: is_damped
+    integer :: k, n, wanted
 
     n = size(request%speed)
     factor = load_factors(request)
-    call refuse_missing_modes(linkage%bodies, work%continuum%equations, model%layout, &
-      modes_for_dampers(structure, model, request%modes), result%outcome)
+    is_damped = size(structure%elastic%dampers) > 0
+    wanted = modes_for_dampers(structure, work%here%model, request%modes)
+    call refuse_missing_modes(work%here%elastic%linkage%bodies, work%continuum%equations, &
+      work%here%model%layout, wanted, result%outcome)
     call move_alloc(work%continuum%found, found)
-    call solve_speeds(state%crank, factor, modes_for_dampers(structure, model, request%modes), &
-      want_shapes .and. request%method == by_orders .or. damper_count(structure) > 0, &
-      work%continuum, found, result%outcome, result%counts, work%here%mixed)
+    call solve_speeds(state%crank, factor, wanted, want_shapes .and. request%method == by_orders &
+      .or. is_damped, work%continuum, found, result%outcome, result%counts, work%here%mixed)
     if (request%follow) allocate (result%prints(n))
     if (size(work%here%unit_force) > 0) then
       if (allocated(work%here%mixed)) work%continuum%equations%chords = &
         yields_of_position(work%here)
-      call find_deflection(structure, linkage, model, work%continuum%equations%chords, pose, &
-        work%here, factor, result%deflection)
+      call find_deflection(work%continuum%equations%chords, work%here, factor, result%deflection)
     end if
     do k = 1, n
       if (allocated(result%outcome(k)%error)) cycle
       if (allocated(work%here%mixed)) then
         call modes_of_position(work%here, found(k), work%continuum%equations, modes)
-        call finish_speed(structure, linkage, work%here%model, pose, state, request, factor(:, k), &
-          k, want_shapes(k), modes, work, result, found(k))
+        call finish_speed(structure, state, request, factor(:, k), k, modes, work, result, found(k))
+        call keep_speed(request, k, want_shapes(k), modes, work, result)
         if (request%follow) call prints_of_position(work%here, found(k), request%modes, &
           result%prints(k))
-      else if (damper_count(structure) > 0) then
-        call solve_damped_speed(structure, model, state, request, factor(:, k), k, found(k), work, &
-          result)
-        call keep_speed(structure, linkage, model, pose, request, k, want_shapes(k), found(k), &
-          work, result)
       else
-        call finish_speed(structure, linkage, model, pose, state, request, factor(:, k), k, &
-          want_shapes(k), found(k), work, result)
+        if (is_damped) then
+          call solve_damped_speed(structure, state, request, factor(:, k), k, found(k), work, &
+            result)
+        else
+          call finish_speed(structure, state, request, factor(:, k), k, found(k), work, result)
+        end if
+        call keep_speed(request, k, want_shapes(k), found(k), work, result)
+        if (request%follow) result%prints(k) = prints_of(work%here%model, &
+          work%continuum%equations%chords, found(k), request%modes)
       end if
     end do
     select case (request%method)
@@ -175,25 +165,20 @@ contains
   end subroutine solve_assembled
 
   !> Takes the modes of a speed, with their errors.
-  subroutine finish_speed(structure, linkage, model, pose, state, request, factor, k, want_shapes, &
-    found, work, result, mixed_modes)
+  subroutine finish_speed(structure, state, request, factor, k, found, work, result, mixed_modes)
     type(structure_t), intent(in) :: structure
-    type(linkage_t), intent(in) :: linkage          !! whose bodies are the links of the model
-    type(deformation_model_t), intent(in) :: model
-    type(pose_t), intent(in) :: pose                !! of this linkage
-    type(state_t), intent(in) :: state              !! of the linkage that moves
+    type(state_t), intent(in) :: state
     type(mode_request_t), intent(in) :: request
     real(wp), intent(in) :: factor(case_count)
     integer, intent(in) :: k                        !! number of the speed
-    logical, intent(in) :: want_shapes
     type(bordered_modes_t), intent(in) :: found
-    type(position_work_t), intent(inout) :: work
+    type(position_work_t), intent(in) :: work
     type(position_result_t), intent(inout) :: result
     type(bordered_modes_t), intent(in), optional :: mixed_modes !! the same in mixed form
 
     real(wp), dimension(request%modes) :: discretisation, rounding, of_matrices, load_work
 
-    associate (equations => work%continuum%equations, here => work%here)
+    associate (equations => work%continuum%equations, here => work%here, model => work%here%model)
       discretisation = with_modes_above(found%lambda, sum(order_error(model, equations, &
         total_force(here%unit_force, factor), found, found%near), dim=1), request%modes, &
         found%zeros)
@@ -210,62 +195,45 @@ contains
         largest_error(discretisation, rounding, of_matrices, elastic_squares(model%layout, &
         found%vector(:, :request%modes)), found%lambda(:request%modes))
     end associate
-    call keep_speed(structure, linkage, model, pose, request, k, want_shapes, found, work, result)
   end subroutine finish_speed
 
-  !> Keeps what is asked for of the modes of a speed.
-  subroutine keep_speed(structure, linkage, model, pose, request, k, want_shapes, found, work, &
-    result)
-    type(structure_t), intent(in) :: structure
-    type(linkage_t), intent(in) :: linkage
-    type(deformation_model_t), intent(in) :: model
-    type(pose_t), intent(in) :: pose
+  !> Keeps the shapes of the modes of a speed, if they are asked for.
+  subroutine keep_speed(request, k, want_shapes, found, work, result)
     type(mode_request_t), intent(in) :: request
-    integer, intent(in) :: k
+    integer, intent(in) :: k                        !! number of the speed
     logical, intent(in) :: want_shapes
     type(bordered_modes_t), intent(in) :: found
     type(position_work_t), intent(in) :: work
     type(position_result_t), intent(inout) :: result
 
-    associate (chords => work%continuum%equations%chords)
-      if (request%follow .and. .not. model%mixed) result%prints(k) = prints_of(model, chords, &
-        found, request%modes)
-      if (.not. want_shapes .or. request%method /= by_orders) return
-      call sample_reduced(linkage, model, chords, pose, found, request, result%shapes(k), &
-        structure%elastic)
-      result%counts%shapes = result%counts%shapes + request%modes
+    if (.not. want_shapes .or. request%method /= by_orders) return
+    associate (here => work%here)
+      call sample_reduced(here%elastic%linkage, here%model, work%continuum%equations%chords, &
+        here%pose, found, request, result%shapes(k), here%elastic)
     end associate
+    result%counts%shapes = result%counts%shapes + request%modes
   end subroutine keep_speed
 
   !> Largest static deflection of every link / its length, or that of one of its ways, at every
   !! speed.
-  subroutine find_deflection(structure, linkage, model, chords, pose, here, factor, ratio)
-    type(structure_t), intent(in) :: structure
-    type(linkage_t), intent(in) :: linkage !! whose bodies are the links of the model
-    type(deformation_model_t), intent(in) :: model
-    type(chords_t), intent(in) :: chords   !! at this pose
-    type(pose_t), intent(in) :: pose       !! of this linkage
-    type(assembled_t), intent(in) :: here  !! loads at this pose
+  subroutine find_deflection(chords, here, factor, ratio)
+    type(chords_t), intent(in) :: chords   !! at this position
+    type(assembled_t), intent(in) :: here  !! with loads
     real(wp), intent(in) :: factor(:, :)   !! (cases, speeds) of the unit loads
     real(wp), intent(out) :: ratio(:, :)   !! (bodies, speeds) [-]
 
-    real(wp) :: unit(2, stations, size(linkage%bodies), case_count), displacement(2), squared
+    real(wp) :: unit(2, stations, size(here%elastic%body), case_count), displacement(2), squared
     integer :: b, i, j, k
 
     unit = 0.0_wp
     do i = 1, case_count
       if (.not. here%loads%occurs(i)) cycle
-      if (allocated(structure%elastic)) then
-        call reduced_deflection(linkage, model%links, chords, pose, &
-          here%part_loads%unit%of_case(i), here%part_forces%border(:, i), unit(:, :, :, i))
-      else
-        call reduced_deflection(linkage, model%links, chords, pose, here%loads%of_case(i), &
-          border_work(linkage, model%links, chords, pose, here%loads%of_case(i)), unit(:, :, :, i))
-      end if
+      call reduced_deflection(here%elastic%linkage, here%model%links, chords, here%pose, &
+        here%part_loads%unit%of_case(i), here%part_forces%border(:, i), unit(:, :, :, i))
     end do
     ratio = 0.0_wp
     do k = 1, size(factor, 2)
-      do b = 1, size(linkage%bodies)
+      do b = 1, size(here%elastic%body)
         squared = 0.0_wp
         do i = 1, stations
           displacement = factor(1, k)*unit(:, i, b, 1)
@@ -274,34 +242,21 @@ contains
           end do
           squared = max(squared, sum(displacement**2))
         end do
-        associate (share => ratio(link_of(structure, b), k))
-          share = max(share, sqrt(squared)/length_of(structure, linkage, b))
+        associate (share => ratio(here%elastic%body(b), k))
+          share = max(share, sqrt(squared)/length_of(here%elastic, b))
         end associate
       end do
     end do
   end subroutine find_deflection
 
-  !> The length of a body, of a piece that of its whole way [m].
-  pure function length_of(structure, linkage, body) result(length)
-    type(structure_t), intent(in) :: structure
-    type(linkage_t), intent(in) :: linkage
-    integer, intent(in) :: body
+  !> The length of a part, of a piece that of its whole way [m].
+  pure function length_of(elastic, part) result(length)
+    type(elastic_linkage_t), intent(in) :: elastic
+    integer, intent(in) :: part
     real(wp) :: length
 
-    length = linkage%bodies(body)%length
-    if (.not. allocated(structure%elastic)) return
-    if (is_piece(structure%elastic, body)) length = &
-      structure%elastic%ways(structure%elastic%way(body))%length
+    length = elastic%linkage%bodies(part)%length
+    if (is_piece(elastic, part)) length = elastic%ways(elastic%way(part))%length
   end function length_of
-
-  !> The link of a part.
-  pure function link_of(structure, part) result(link)
-    type(structure_t), intent(in) :: structure
-    integer, intent(in) :: part
-    integer :: link
-
-    link = part
-    if (allocated(structure%elastic)) link = structure%elastic%body(part)
-  end function link_of
 
 end module position_solver

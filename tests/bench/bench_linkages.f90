@@ -2,7 +2,6 @@
 module bench_linkages
   use bench_cases, only: median_of
   use bench_models, only: base_t, read_base
-  use elastic_linkages, only: new_elastic_linkage
   use errors, only: error_of_numerics, error_t, set_error
   use kinds, only: wp
   use ledger, only: ledger_t
@@ -138,7 +137,7 @@ contains
         results => reference%results%found%sweep%results)
       do while (this%order < most_order)
         this%order = max(3, this%order + 1)
-        call new_nodal_parts(new_elastic_linkage(structure%linkage, structure%beams), this%order, this%mesh, error)
+        call new_nodal_parts(structure%elastic, this%order, this%mesh, error)
         if (allocated(error)) return
         this%nodal_error = 0.0_wp
         do i = 1, size(states)

@@ -2,7 +2,6 @@
 module part_samples
   use computed_decks, only: read_text
   use deformation_model, only: deformation_model_t
-  use elastic_linkages, only: new_elastic_linkage
   use elastic_reactions, only: new_elastic_model
   use errors, only: error_t
   use kinds, only: wp
@@ -177,8 +176,7 @@ contains
     if (len(complaint) > 0) return
     sample%mechanism = new_mechanism(model)
     associate (mechanism => sample%mechanism, here => sample%here)
-      if (.not. allocated(mechanism%elastic)) mechanism%elastic = &
-        new_elastic_linkage(mechanism%linkage, mechanism%beams)
+      mechanism%elastic%in_closed_form = .false.
       call new_elastic_model(mechanism, sample%model, error, [crank])
       if (.not. allocated(error)) call find_pose(mechanism%linkage, crank, sample%pose, error)
       if (.not. allocated(error)) then

@@ -4,6 +4,7 @@ module response_cases
   use body_lumps, only: pieces_of
   use constants, only: two_pi
   use deformation_model, only: deformation_model_t, new_deformation_model
+  use divided_structures, only: divide
   use elastic_equations, only: elastic_terms_t, functions_of, load_at_speed
   use errors, only: error_t
   use four_bars, only: new_four_bar
@@ -70,6 +71,7 @@ contains
     structure%linkage = new_four_bar(reshape([0.0_wp, 0.0_wp, 0.254_wp, 0.0_wp], [2, 2]), [0.1_wp, 0.2794_wp, 0.2667_wp], &
       spread(density*thick*wide, 1, 3), [0.0_wp, 0.0_wp], .false.)
     structure%beams = spread(beam_t(youngs_modulus*thick*wide, youngs_modulus*wide*thick**3/12.0_wp), 1, 3)
+    call divide(structure)
   end function first_mechanism
 
   !> A crank that bends; coupler and follower are rigid and have no mass.
@@ -82,6 +84,7 @@ contains
       4.0_wp], [line_density, 0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp], .false.)
     structure%linkage%bodies(2:3)%bends = .false.
     structure%beams = [beam, beam_t(), beam_t()]
+    call divide(structure)
   end function rotating_cantilever
 
   !> A strip as good as without mass, with a mass at its tip, under gravity.
@@ -93,6 +96,7 @@ contains
     structure = rotating_cantilever(0.1_wp, line_density, beam_t(2.0e5_wp, 1.6_wp))
     structure%linkage%pin_mass(2) = 0.05_wp
     structure%linkage%gravity = [0.0_wp, -gravity]
+    call divide(structure)
   end function tip_mass
 
   !> A linkage whose crank turns fully, with all that a link, a pin and the world around can have. Every third has a rigid link,
@@ -146,9 +150,11 @@ contains
     end do
     b = 0
     if (modulo(number, 3) == 1) b = 1 + modulo(number, 2) + modulo(number/3, 2)
-    if (b == 0) return
-    structure%linkage%bodies(b)%bends = .false.
-    structure%beams(b) = beam_t()
+    if (b > 0) then
+      structure%linkage%bodies(b)%bends = .false.
+      structure%beams(b) = beam_t()
+    end if
+    call divide(structure)
   end function random_structure
 
   !> Up to two masses: on the axis, beside it, or with a moment of inertia.

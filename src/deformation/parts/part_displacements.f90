@@ -13,7 +13,7 @@ module part_displacements
   use kinds, only: wp
   use link_modes, only: link_modes_t
   use linkages, only: linkage_t, normal_to
-  use pin_displacements, only: chords_t
+  use pin_displacements, only: chords_t, find_chords
   use poses, only: dead_point_sine, pose_t, refuse_change_point
   use text, only: to_string
   implicit none (type, external)
@@ -59,7 +59,8 @@ contains
     free = basis%free
   end subroutine border_size
 
-  !> The basis at a position, and what its unknowns do to points and parts.
+  !> The basis at a position, and what its unknowns do to points and parts: in closed form, or from
+  !! rows.
   !!
   !! Errors: a change point at which no redundant links hold the linkage; more or fewer free motions
   !! than it has elsewhere: a dead point.
@@ -76,6 +77,11 @@ contains
     type(chords_t), intent(out) :: chords          !! of this position
     type(error_t), allocatable, intent(out) :: error
 
+    if (elastic%in_closed_form) then
+      chords = find_chords(linkage, links, pose)
+      border%is_new = .false.
+      return
+    end if
     call find_border_rows(elastic, links, border%numbers, pose, border%rows)
     call find_row_basis(border%rows, border%basis, border%primary, with_forces)
     if (border%basis%free /= free .or. border%basis%least_pivot < dead_point_sine) then

@@ -6,7 +6,7 @@
 !! less the work of the parts and springs that this strains. Free drives act as loads: the torque or
 !! force that the motion needs.
 module part_forces
-  use axial_forces, only: lump_functions, most_lump_functions
+  use axial_forces, only: distributed_unit_forces, lump_functions, most_lump_functions
   use border_loads, only: border_work, own_work
   use border_rows, only: add_stretch, border_unknowns_t, damper_rows, spring_way
   use carried_bodies, only: add_carried_stiffness, carried_work
@@ -17,7 +17,7 @@ module part_forces
   use kinds, only: wp
   use link_modes, only: link_modes_t
   use linkages, only: linkage_t, normal_to
-  use load_cases, only: case_count, constant_case, load_case_t
+  use load_cases, only: case_count, constant_case, load_case_t, unit_loads_t
   use part_displacements, only: border_t, chords_of
   use part_force_types, only: part_forces_t
   use part_poses, only: part_loads_t
@@ -27,8 +27,8 @@ module part_forces
   implicit none (type, external)
   private
 
-  public :: part_forces_t, pull_forces_t, find_part_forces, find_pull_forces, make_room, &
-    take_forces
+  public :: part_forces_t, pull_forces_t, find_part_forces, find_dyad_forces, find_pull_forces, &
+    make_room, take_forces
 
   !> Forces where every damper pulls by 1 N, or turns back by 1 N m.
   type :: pull_forces_t
@@ -108,6 +108,28 @@ contains
       end associate
     end do
   end subroutine find_part_forces
+
+  !> The forces of a crank and dyads, from the equilibrium of one dyad after another.
+  pure subroutine find_dyad_forces(linkage, pose, loads, links, chords, forces)
+    type(linkage_t), intent(in) :: linkage     !! of binary links
+    type(pose_t), intent(in) :: pose
+    type(unit_loads_t), intent(in) :: loads    !! of this pose
+    type(link_modes_t), intent(in) :: links(:) !! (bodies)
+    type(chords_t), intent(in) :: chords       !! of the border unknowns
+    type(part_forces_t), intent(out) :: forces !! axial, and of the border
+
+    integer :: i, n
+
+    n = size(chords%turn, 1)
+    forces%axial = distributed_unit_forces(linkage, pose, loads)
+    if (.not. any(loads%occurs)) return
+    allocate (forces%second_order(n, n, case_count), forces%border(n, case_count), source=0.0_wp)
+    do i = 1, case_count
+      if (loads%occurs(i)) forces%border(:, i) = border_work(linkage, links, chords, pose, &
+        loads%of_case(i))
+    end do
+    forces%work = forces%border
+  end subroutine find_dyad_forces
 
   !> Forces of no loads.
   pure subroutine make_room(linkage, elastic, loads, numbers, border, forces)

@@ -86,6 +86,12 @@ contains
         numbers%rows(n) = border_row_t(row_curve, k, i)
       end do
     end do
+    ! Closed forms begin with the rotation of the clamped end.
+    if (elastic%in_closed_form .and. links(1)%curves == 1) then
+      numbers%elongation(1) = 2
+      numbers%curve(1, 1) = 1
+      numbers%rows(:2) = numbers%rows(2:1:-1)
+    end if
     do i = 1, size(elastic%springs)
       n = n + 1
       numbers%spring(i) = n

@@ -110,7 +110,7 @@ contains
       end associate
     end do
     allocate (chords%across(3, border, size(links)), chords%along(2, border, size(links)), &
-      chords%turn(border, size(links)))
+      chords%turn(border, size(links)), chords%rotation(0, border))
     do b = 1, size(links)
       associate (body => linkage%bodies(b), axis => pose%direction(:, b))
         do j = 1, border

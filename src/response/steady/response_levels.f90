@@ -12,9 +12,8 @@ module response_levels
   use response_types, only: damping_by_dampers, damping_ratio, damping_time, &
     link_damping_t
   use slow_motions, only: new_slow_basis, slow_basis_t
-  use linkages, only: linkage_t
   use position_assembly, only: set_border
-  use structures, only: structure_t, vibrating_beams, vibrating_linkage
+  use structures, only: structure_t
   use turn_grids, only: new_turn_grid, turn_grid_t
   implicit none (type, external)
   private
@@ -130,26 +129,21 @@ contains
     type(error_t), allocatable, intent(out) :: error   !! why there is none
     type(covered_range_t), intent(in), optional :: range !! positions that it is for; absent: a turn
 
-    type(linkage_t) :: linkage
     type(covered_range_t) :: covered
     type(link_degrees_t), allocatable :: degrees(:)
     integer :: b, n, pieces, across
 
-    linkage = vibrating_linkage(structure)
-    n = size(linkage%bodies)
-    allocate (degrees(n))
-    do b = 1, n
-      pieces = size(pieces_of(linkage%bodies(b))) - 1
-      across = max(4, order - min(pieces - 1, 3))
-      degrees(b) = uniform_degrees(pieces, across, max(least_along, across - along_below))
-    end do
-    if (.not. allocated(structure%elastic)) then
-      call new_deformation_model(linkage, structure%beams, spread(0, 1, n), spread(order, 1, n), &
-        spread(.false., 1, n), model, error, store, degrees)
-      return
-    end if
-    call new_deformation_model(linkage, vibrating_beams(structure), spread(0, 1, n), spread(order, &
-      1, n), spread(.false., 1, n), model, error, store, degrees, structure%elastic%held)
+    associate (parts => structure%elastic)
+      n = size(parts%body)
+      allocate (degrees(n))
+      do b = 1, n
+        pieces = size(pieces_of(parts%linkage%bodies(b))) - 1
+        across = max(4, order - min(pieces - 1, 3))
+        degrees(b) = uniform_degrees(pieces, across, max(least_along, across - along_below))
+      end do
+      call new_deformation_model(parts%linkage, parts%beams, spread(0, 1, n), spread(order, 1, n), &
+        spread(.false., 1, n), model, error, store, degrees, parts%held)
+    end associate
     if (allocated(error)) return
     if (present(range)) covered = range
     call set_border(structure, positions_of(covered, border_positions), model)

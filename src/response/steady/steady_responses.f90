@@ -32,7 +32,7 @@ module steady_responses
     response_request_t, response_t, rigid_torque, speed_response_t, strain_values, total_torque
   use sorting, only: ascending_order
   use slow_motions, only: new_slow_motion, own_squares, slow_basis_t, slow_count, slow_motion_t
-  use structures, only: structure_t, vibrating_beams, vibrating_linkage
+  use structures, only: structure_t
   use text, only: to_string
   use turn_grids, only: moves, sense_of, turn_grid_t
   implicit none (type, external)
@@ -392,7 +392,7 @@ contains
       call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
         found, errors, unsolved)
       ! The exact kinematics are those of links between two pins.
-      if (request%validity .and. .not. allocated(structure%elastic)) call find_changes
+      if (request%validity .and. structure%elastic%in_closed_form) call find_changes
     end block attempt
     found%applications = before + solution%applications + better%applications
     choice%work = choice%work + work_of(level%grid, solution%applications + 2*looking) + &
@@ -703,8 +703,8 @@ contains
     real(wp) :: extra
     integer :: i, k, first, n
 
-    linkage = vibrating_linkage(structure)
-    beams = vibrating_beams(structure)
+    linkage = structure%elastic%linkage
+    beams = structure%elastic%beams
     n = size(solution%series, 2)
     allocate (values(above%grid%samples, n), fine(above%grid%samples, n), &
       before(above%grid%samples, n), errors(n))

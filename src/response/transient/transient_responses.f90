@@ -25,7 +25,7 @@ module transient_responses
   use response_peaks, only: sampled_deflections
   use response_types, only: strain_values
   use slow_motions, only: own_squares
-  use structures, only: structure_t, vibrating_beams, vibrating_linkage
+  use structures, only: structure_t
   use text, only: to_string
   use transient_quantities, only: of_gauge, of_point, quantities_of
   use transient_motions, only: solve_motion, stages, transient_motion_t
@@ -95,8 +95,7 @@ contains
     integer :: k
 
     of_bodies = request
-    if (allocated(structure%elastic)) of_bodies%response = request_of_parts(structure%elastic, &
-      request%response)
+    of_bodies%response = request_of_parts(structure%elastic, request%response)
     allocate (transient%at_speed(size(request%response%speed)))
     do k = 1, size(transient%at_speed)
       if (was_interrupted()) exit
@@ -105,8 +104,8 @@ contains
       law%range%is_angle = gives_angle(structure%linkage%drives(1))
       law%range%is_turn = law%range%is_angle .and. request%turns_fully
       call find_transient(structure, of_bodies, law, store, transient%at_speed(k))
-      if (allocated(structure%elastic)) call join_largest(structure%elastic, &
-        size(structure%linkage%bodies), transient%at_speed(k)%deflection)
+      call join_largest(structure%elastic, size(structure%linkage%bodies), &
+        transient%at_speed(k)%deflection)
     end do
   end subroutine find_transients
 
@@ -424,7 +423,7 @@ contains
     real(wp) :: change(size(series, 2))
     integer :: first, i, k, n
 
-    beams = vibrating_beams(structure)
+    beams = structure%elastic%beams
     n = size(series, 1)
     change = missed + safety*what_remains(maxval(abs(series - before), dim=1), maxval(abs(before - &
       older), dim=1), found%order)
@@ -463,7 +462,7 @@ contains
     real(wp) :: largest(size(series, 2)), far(size(displacement)), least, tension, bend, turn
     integer :: first, i
 
-    linkage = vibrating_linkage(structure)
+    linkage = structure%elastic%linkage
     largest = maxval(abs(series), dim=1)
     do i = 1, size(displacement)
       first = of_point*(i - 1) + 1

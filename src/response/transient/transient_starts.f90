@@ -16,7 +16,7 @@ module transient_starts
   use response_levels, only: damping_of, level_slot_t, need_basis, need_level, sample_numbers
   use response_series, only: place_series
   use slow_motions, only: new_slow_motion, slow_count, slow_motion_t
-  use structures, only: structure_t, vibrating_linkage
+  use structures, only: structure_t
   use text, only: to_string
   use transient_steps, only: momenta_of
   use transient_types, only: from_steady, transient_request_t
@@ -226,7 +226,7 @@ contains
     shape = vector(:, 1)
     largest = 0.0_wp
     across = 0.0_wp
-    linkage = vibrating_linkage(structure)
+    linkage = structure%elastic%linkage
     do b = 1, size(linkage%bodies)
       do i = 0, places
         moved = place_series(grid, b, [linkage%bodies(b)%length*i/places, 0.0_wp], &

@@ -16,7 +16,7 @@ module out_of_plane
   use body_lumps, only: pieces_of
   use bordered_eigensolver, only: bordered_modes_t, start_t
   use constants, only: two_pi
-  use elastic_linkages, only: elastic_linkage_t, new_elastic_linkage
+  use elastic_linkages, only: elastic_linkage_t
   use element_eigensolver, only: element_pencil_t, find_element_modes
   use element_matrices, only: elements_t, new_elements
   use elimination_plan, only: elimination_plan_t, new_elimination_plan
@@ -106,11 +106,7 @@ contains
     if (size(structure%beams) == 0) return
     if (any(structure%linkage%bodies%bends .and. (structure%beams%out_of_plane_stiffness <= 0.0_wp &
       .or. structure%beams%torsional_stiffness <= 0.0_wp))) return
-    if (allocated(structure%elastic)) then
-      elastic = structure%elastic
-    else
-      elastic = new_elastic_linkage(structure%linkage, structure%beams)
-    end if
+    elastic = structure%elastic
     element = new_grillage_element(order)
     do k = 1, positions
       call frequency_at((360.0_wp*(k - 1))/positions, at_position(k))

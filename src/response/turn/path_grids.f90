@@ -12,13 +12,12 @@ module path_grids
     open_fourier, value_at
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients
-  use linkages, only: linkage_t
   use pin_displacements, only: chords_t, find_chords
+  use position_assembly, only: assembled_t
   use poses, only: find_pose, pose_t
   use structures, only: structure_t
   use text, only: to_string
-  use turn_grids, only: find_slope, new_turn_grid, number_border, start_grid, take_chord, &
-    take_pose, turn_grid_t
+  use turn_grids, only: find_slope, new_turn_grid, start_grid, take_chord, take_pose, turn_grid_t
   implicit none (type, external)
   private
 
@@ -52,12 +51,16 @@ contains
     type(error_t), allocatable, intent(out) :: error
     type(covered_range_t), intent(in), optional :: range !! positions between them; absent: a turn
 
-    if (allocated(structure%elastic)) then
+    type(assembled_t), allocatable :: here
+
+    if (.not. structure%elastic%in_closed_form) then
       call find_series(structure, model, samples, grid, error, range)
       return
     end if
-    call start_grid(structure%linkage, model, samples, grid)
-    call number_border(structure%linkage, grid)
+    allocate (here)
+    call start_grid(structure, model, samples, here, grid, error)
+    call move_alloc(here, grid%here)
+    deallocate (grid%second_order)
     allocate (grid%chord_slope, mold=grid%chord)
     allocate (grid%pin_slope, mold=grid%pin)
     grid%chord_slope = 0.0_wp
@@ -90,32 +93,36 @@ contains
         end if
       end do
     else
-      call place_dyads(structure%linkage, crank, grid, error)
+      call place_dyads(structure, crank, grid, error)
     end if
   end subroutine place_grid
 
   !> Those of a crank and dyads, from the motion of the links at each angle.
-  subroutine place_dyads(linkage, crank, grid, error)
-    type(linkage_t), intent(in) :: linkage
+  subroutine place_dyads(structure, crank, grid, error)
+    class(structure_t), intent(in) :: structure
     real(wp), intent(in) :: crank(:)
     type(turn_grid_t), intent(inout) :: grid
     type(error_t), allocatable, intent(out) :: error
 
+    type(assembled_t), allocatable :: here
     type(pose_t) :: pose
     type(chords_t) :: slopes
     integer :: b, k
 
+    call move_alloc(grid%here, here)
     do k = 1, size(crank)
-      call find_pose(linkage, crank(k), pose, error)
-      if (allocated(error)) return
-      call take_pose(linkage, pose, k, grid)
-      slopes = find_chord_slopes(linkage, grid%model%links, pose, &
-        find_kinematic_coefficients(linkage, pose), find_chords(linkage, grid%model%links, pose))
+      call find_pose(structure%linkage, crank(k), pose, error)
+      if (.not. allocated(error)) call take_pose(structure, pose, k, here, grid, error)
+      if (allocated(error)) exit
+      slopes = find_chord_slopes(structure%linkage, grid%model%links, pose, &
+        find_kinematic_coefficients(structure%linkage, pose), find_chords(structure%linkage, &
+        grid%model%links, pose))
       grid%pin_slope(k, :, :, :) = slopes%pin
       do b = 1, size(grid%integrals)
         call take_chord(grid%model%links(b), slopes, b, grid%chord_slope(k, :, :, b))
       end do
     end do
+    call move_alloc(here, grid%here)
   end subroutine place_dyads
 
   !> Series of all terms of a linkage in parts, from as many samples as they need: harmonics of a

@@ -11,7 +11,6 @@
 !!
 !! Arrays run over the crank angles first, so that loops over them are long.
 module turn_grids
-  use axial_forces, only: distributed_unit_forces
   use band_matrix, only: full_band
   use body_lumps, only: lump_offsets
   use border_rows, only: row_spring
@@ -28,23 +27,22 @@ module turn_grids
   use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
   use link_modes, only: link_modes_t
   use linkages, only: linkage_t, normal_to
-  use load_cases, only: case_count, find_unit_loads, load_case_t, unit_loads_t
+  use load_cases, only: case_count, find_unit_loads, load_case_t
   use moving_integrals, only: chord_functions, moving_integrals_t, new_moving_integrals
   use moving_pieces, only: amplitude_scales, moving_ends, moving_piece_t, new_moving_piece, no_end
   use part_displacements, only: border_t, find_part_chords
-  use part_forces, only: find_part_forces, find_pull_forces, pull_forces_t
-  use part_poses, only: find_part_loads
-  use pin_displacements, only: body_displacement, border_numbers, chords_t, find_chords
-  use position_assembly, only: assembled_t, new_assembled, place_parts
+  use part_forces, only: find_pull_forces, pull_forces_t
+  use pin_displacements, only: body_displacement, chords_t
+  use position_assembly, only: assembled_t, load_parts, new_assembled, place_parts
   use poses, only: find_pose, pose_t
   use reactions, only: find_unit_reactions, unit_reactions_t
   use reduced_assembly, only: first_axial
-  use structures, only: structure_t, vibrating_linkage
+  use structures, only: structure_t
   implicit none (type, external)
   private
 
-  public :: turn_grid_t, damper_t, rate_case, new_turn_grid, start_grid, number_border, take_pose, &
-    take_chord, moves, sense_of, find_slope
+  public :: turn_grid_t, damper_t, rate_case, new_turn_grid, start_grid, take_pose, take_chord, &
+    moves, sense_of, find_slope
 
   !> Positions of a turn at which deformations are tried as unknowns, and turns until these are
   !! taken for good.
@@ -87,8 +85,9 @@ module turn_grids
     type(damper_t), allocatable :: dampers(:)
     integer :: cases = case_count          !! load cases, that of dampers included
     real(wp), allocatable :: weighted_slope(:, :, :) !! d/dθ2 of `weighted`; of `path_grids` only
-    !> Of a linkage in parts, of `path_grids`: (samples of the range, terms) coefficients of all
-    !! terms
+    ! Of `path_grids`, of a crank and dyads: room for their positions
+    type(assembled_t), allocatable :: here
+    !> The same, of any other linkage: (samples of the range, terms) coefficients of all terms
     real(wp), allocatable :: series(:, :)
     real(wp) :: tail = 0.0_wp !! the highest of these, beside the size of their kind
     !> What moves with the material of pieces between the end of a link and a block; not allocated:
@@ -129,8 +128,7 @@ module turn_grids
 contains
 
   !> The terms at all crank angles of a turn. The displacements are those of Ulker 2010 (2.74), of
-  !! points of the rigid linkage. Of a linkage in parts, which keep their lengths, bodies are its
-  !! parts, pins its points.
+  !! points of the rigid linkage. Bodies are the parts of its links, pins their points.
   !!
   !! Errors: the crank cannot reach one of the angles; the parts and springs do not determine the
   !! displacements; there are more of them than do, and no choice among them serves at all angles.
@@ -152,22 +150,12 @@ contains
     if (present(range)) grid%range = range
     position = positions_of(grid%range, samples)
     if (present(backwards)) grid%backwards = backwards
-    call start_grid(vibrating_linkage(structure), model, samples, grid)
-    if (allocated(structure%elastic)) then
-      call start_parts(structure, model, here, grid, error)
-      if (allocated(error)) return
-    else
-      call number_border(structure%linkage, grid)
-    end if
+    call start_grid(structure, model, samples, here, grid, error)
+    if (allocated(error)) return
     do k = 1, samples
       call find_pose(structure%linkage, sense_of(grid)*position(k), pose, error)
+      if (.not. allocated(error)) call take_pose(structure, pose, k, here, grid, error)
       if (allocated(error)) return
-      if (allocated(structure%elastic)) then
-        call take_parts(structure, pose, k, here, grid, error)
-        if (allocated(error)) return
-      else
-        call take_pose(structure%linkage, pose, k, grid)
-      end if
     end do
     if (grid%backwards) call turn_back(grid)
     call add_damper_cases(grid)
@@ -212,36 +200,54 @@ contains
     end do
   end subroutine turn_back
 
-  !> Numbers and room for a linkage in parts, and border unknowns that are smooth functions of the
-  !! crank angle.
-  subroutine start_parts(structure, model, here, grid, error)
+  !> Numbers and room for the terms, and border unknowns that are smooth functions of the crank
+  !! angle.
+  !!
+  !! Errors: no spring holds a free drive; those of `choose_pivots`.
+  subroutine start_grid(structure, model, samples, here, grid, error)
     class(structure_t), intent(in) :: structure
-    type(deformation_model_t), intent(in) :: model
-    type(assembled_t), intent(out) :: here
+    type(deformation_model_t), intent(in) :: model !! own deformations of its parts
+    integer, intent(in) :: samples                 !! crank angles
+    type(assembled_t), intent(out) :: here         !! for `take_pose`
     type(turn_grid_t), intent(inout) :: grid
     type(error_t), allocatable, intent(out) :: error
 
-    integer :: i, n
+    integer :: b, i, n, pins
 
+    grid%samples = samples
+    grid%model = model
+    grid%unknowns = model%layout%unknowns
+    grid%border = model%layout%border
     if (model%layout%free > 0) then
       call set_error(error, error_of_dead_point, "the linkage moves freely beside the motion "// &
         "of its crank: no SPRING holds a drive that is 'free'")
       return
     end if
     here = new_assembled(structure, model)
-    associate (dampers => structure%elastic%dampers, bodies => size(grid%integrals))
-      deallocate (grid%dampers)
-      allocate (grid%dampers(size(dampers)))
+    associate (parts => structure%elastic%linkage, dampers => structure%elastic%dampers, &
+        border => grid%border)
+      n = size(parts%bodies)
+      pins = size(parts%is_ground)
+      grid%pin_mass = parts%pin_mass
+      grid%rotary_inertia = parts%bodies%rotary_inertia
+      call number_own_modes(grid)
+      allocate (grid%integrals(n), grid%dampers(size(dampers)))
+      do b = 1, n
+        grid%integrals(b) = new_moving_integrals(parts%bodies(b), model%links(b))
+      end do
       if (size(dampers) > 0) grid%cases = rate_case
       do i = 1, size(dampers)
         grid%dampers(i)%damping = dampers(i)%damping
-        allocate (grid%dampers(i)%rate(grid%samples), grid%dampers(i)%force(grid%samples, bodies), &
-          grid%dampers(i)%second_order(grid%samples, grid%border, grid%border))
+        allocate (grid%dampers(i)%rate(samples), grid%dampers(i)%force(samples, n), &
+          grid%dampers(i)%second_order(samples, border, border))
       end do
+      allocate (grid%chord(samples, maxval(chord_functions(model%links)), border, n), &
+        grid%load(samples, grid%unknowns, grid%cases), &
+        grid%second_order(samples, border, border, grid%cases), source=0.0_wp)
+      allocate (grid%turn(samples, border, n), grid%pin(samples, 2, pins, border), &
+        grid%place(samples, 2, pins), grid%direction(samples, 2, n), grid%rate(samples, n), &
+        grid%rate_slope(samples, n), grid%torque(samples, case_count))
     end associate
-    deallocate (grid%load)
-    allocate (grid%load(grid%samples, grid%unknowns, grid%cases), &
-      grid%second_order(grid%samples, grid%border, grid%border, grid%cases), source=0.0_wp)
     call number_deformations(here%border, grid)
     call start_pieces(structure, here%border, grid)
     call start_blocks(structure%elastic, grid)
@@ -250,7 +256,7 @@ contains
     if (n == grid%border .and. all(grid%deformed(:n) > 0)) return
     call choose_pivots(structure, grid%range, model, here, error)
     if (.not. allocated(error)) call find_rotation(structure, here, grid, error)
-  end subroutine start_parts
+  end subroutine start_grid
 
   !> Room for what moves with the material of pieces whose lengths change.
   pure subroutine start_pieces(structure, border, grid)
@@ -418,75 +424,15 @@ contains
 
   end subroutine turn_unknowns
 
-  !> Sizes, numbers of the unknowns, integrals over the links, and room for the terms.
-  subroutine start_grid(linkage, model, samples, grid)
-    type(linkage_t), intent(in) :: linkage         !! whose bodies vibrate
-    type(deformation_model_t), intent(in) :: model !! their own deformations
-    integer, intent(in) :: samples                 !! crank angles
-    type(turn_grid_t), intent(inout) :: grid
-
-    integer :: b, bodies, pins
-
-    bodies = size(linkage%bodies)
-    pins = size(linkage%is_ground)
-    grid%samples = samples
-    grid%model = model
-    grid%unknowns = model%layout%unknowns
-    grid%border = model%layout%border
-    grid%pin_mass = linkage%pin_mass
-    grid%rotary_inertia = linkage%bodies%rotary_inertia
-    call number_own_modes(grid)
-    allocate (grid%integrals(bodies))
-    do b = 1, bodies
-      grid%integrals(b) = new_moving_integrals(linkage%bodies(b), model%links(b))
-    end do
-    allocate (grid%chord(samples, maxval(chord_functions(model%links)), grid%border, bodies))
-    allocate (grid%turn(samples, grid%border, bodies), grid%pin(samples, 2, pins, grid%border))
-    allocate (grid%place(samples, 2, pins), grid%direction(samples, 2, bodies))
-    allocate (grid%rate(samples, bodies), grid%rate_slope(samples, bodies))
-    allocate (grid%load(samples, grid%unknowns, case_count), grid%torque(samples, case_count))
-    allocate (grid%dampers(0))
-    grid%chord = 0.0_wp
-    grid%load = 0.0_wp
-  end subroutine start_grid
-
-  !> The terms of a crank and dyads at one crank angle, without the slopes of chords and pins;
-  !! derivatives are with respect to θ2.
-  subroutine take_pose(linkage, pose, k, grid)
-    type(linkage_t), intent(in) :: linkage   !! of the grid
-    type(pose_t), intent(in) :: pose         !! at this angle
-    integer, intent(in) :: k                 !! number of the crank angle
-    type(turn_grid_t), intent(inout) :: grid !! of a crank and dyads
-
-    type(kinematic_coefficients_t) :: coefficients
-    type(chords_t) :: chords
-    type(unit_loads_t) :: loads
-    type(unit_reactions_t) :: unit
-    integer :: c
-
-    coefficients = find_kinematic_coefficients(linkage, pose)
-    chords = find_chords(linkage, grid%model%links, pose)
-    grid%rate(k, :) = coefficients%turn
-    grid%rate_slope(k, :) = coefficients%turn_slope
-    call take_chords(pose, chords, k, grid)
-    loads = find_unit_loads(linkage, pose, coefficients)
-    call take_forces(distributed_unit_forces(linkage, pose, loads), k, grid)
-    call find_unit_reactions(linkage, spread(0, 1, size(grid%integrals)), pose, coefficients, unit)
-    do c = 1, case_count
-      grid%load(k, :, c) = load_of(linkage, grid, k, chords, pose, loads%of_case(c))
-      grid%torque(k, c) = unit%of_case(c)%joints%torque
-    end do
-  end subroutine take_pose
-
-  !> The terms of a linkage in parts at one crank angle.
+  !> The terms at one crank angle, without the slopes of chords and pins; derivatives are with
+  !! respect to θ2.
   !!
-  !! Errors: those of `place_parts` and `find_part_chords`; the deformations chosen do not determine
-  !! all others.
-  subroutine take_parts(structure, pose, k, here, grid, error)
+  !! Errors: those of `load_parts`; the deformations chosen do not determine all others.
+  subroutine take_pose(structure, pose, k, here, grid, error)
     class(structure_t), intent(in) :: structure
-    type(pose_t), intent(in) :: pose      !! of the linkage that moves
-    integer, intent(in) :: k              !! number of the crank angle
-    type(assembled_t), intent(inout) :: here
+    type(pose_t), intent(in) :: pose          !! of the linkage that moves
+    integer, intent(in) :: k                  !! number of the crank angle
+    type(assembled_t), intent(inout) :: here  !! by `start_grid`
     type(turn_grid_t), intent(inout) :: grid
     type(error_t), allocatable, intent(out) :: error
 
@@ -495,14 +441,12 @@ contains
     type(unit_reactions_t) :: unit
     integer :: b, c, n
 
-    call place_parts(structure, grid%model, pose, here, error)
-    if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
-      here%model%links, here%pose, grid%border, grid%model%layout%free, .true., here%border, &
-      chords, error)
+    coefficients = find_kinematic_coefficients(structure%linkage, pose)
+    here%loads = find_unit_loads(structure%linkage, pose, coefficients)
+    call load_parts(structure, grid%model, pose, here, chords, error, in_motion=.true.)
     if (.not. allocated(error) .and. allocated(grid%rotation) .and. here%border%is_new) &
       call set_error(error, error_of_numerics, no_choice)
     if (allocated(error)) return
-    coefficients = find_kinematic_coefficients(structure%linkage, pose)
     grid%rate(k, :) = coefficients%turn(here%elastic%body)
     grid%rate_slope(k, :) = coefficients%turn_slope(here%elastic%body)
     call take_chords(here%pose, chords, k, grid)
@@ -512,19 +456,12 @@ contains
       if (moves(grid, b)) grid%ratio(k, b) = here%elastic%linkage%bodies(b)%length/ &
         grid%model%links(b)%length
     end do
-    here%loads = find_unit_loads(structure%linkage, pose, coefficients)
-    call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
-      here%part_loads)
-    ! Of blocks: their I ω² of the second order is that of a linkage at rest. In motion it would
-    ! cancel with a centripetal term, for ½ I (ω + θ')² has no θ², and both are left out.
-    here%part_loads%carried(4, :, :) = 0.0_wp
-    call find_part_forces(structure%linkage, here%elastic, here%model%links, here%pose, &
-      here%part_loads, here%border, chords, here%part_forces)
     call take_forces(here%part_forces%axial, k, grid)
     call find_unit_reactions(structure%linkage, spread(0, 1, size(structure%linkage%bodies)), &
       pose, coefficients, unit)
     do c = 1, case_count
-      grid%second_order(k, :, :, c) = here%part_forces%second_order(:, :, c)
+      if (allocated(grid%second_order)) grid%second_order(k, :, :, c) = &
+        here%part_forces%second_order(:, :, c)
       grid%load(k, :grid%border, c) = here%part_forces%work(:, c)
       do b = 1, size(grid%integrals)
         call add_own_loads(grid, b, k, inertia_work(here%elastic%linkage, grid, b, here%pose, &
@@ -534,7 +471,7 @@ contains
     end do
     if (size(grid%dampers) > 0) call take_dampers(structure%linkage, pose, coefficients, chords, &
       k, here, grid)
-  end subroutine take_parts
+  end subroutine take_pose
 
   !> What the dampers do at one crank angle.
   pure subroutine take_dampers(linkage, pose, coefficients, chords, k, here, grid)
@@ -652,21 +589,6 @@ contains
     end if
   end subroutine find_slope
 
-  !> To which bodies the border unknowns of a crank and dyads belong.
-  pure subroutine number_border(linkage, grid)
-    type(linkage_t), intent(in) :: linkage   !! of the grid
-    type(turn_grid_t), intent(inout) :: grid !! by `start_grid`
-
-    integer :: number(0:size(linkage%bodies)), b
-
-    number = border_numbers(linkage)
-    if (number(0) > 0) grid%owner(number(0)) = 1
-    do b = 1, size(linkage%bodies)
-      if (number(b) > 0) grid%owner(number(b)) = b
-    end do
-    grid%elongation = number(1:)
-  end subroutine number_border
-
   !> To which parts the deformations belong: where there are as many as unknowns, and no dampers,
   !! each is one.
   pure subroutine number_deformations(border, grid)
@@ -734,38 +656,8 @@ contains
     end associate
   end subroutine number_own_modes
 
-  !> Work of a load case per unit of every unknown: `f = −∫ μ Sᵀ a dx`, the term −M Ü0 of Ulker 2010
-  !! (2.77), (2.82) and (2.83), and the work of forces and torques.
-  pure function load_of(linkage, grid, k, chords, pose, case) result(load)
-    type(linkage_t), intent(in) :: linkage
-    type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: k             !! number of the crank angle
-    type(chords_t), intent(in) :: chords !! at this angle
-    type(pose_t), intent(in) :: pose
-    type(load_case_t), intent(in) :: case
-    real(wp) :: load(grid%unknowns)
-
-    real(wp), allocatable :: work(:)
-    integer :: b, i, p
-
-    load = 0.0_wp
-    do b = 1, size(linkage%bodies)
-      work = inertia_work(linkage, grid, b, pose, case)
-      associate (chord => grid%integrals(b)%chord)
-        do i = 1, grid%border
-          load(i) = load(i) + dot_product(grid%chord(k, :chord, i, b), work(:chord)) + &
-            case%couple(b)*chords%turn(i, b)
-        end do
-      end associate
-      call add_own_loads(grid, b, k, work, load)
-    end do
-    do p = 1, size(linkage%pin_mass)
-      load(:grid%border) = load(:grid%border) + matmul(case%pin_force(:, p) - &
-        linkage%pin_mass(p)*case%field%at_pin(:, p), chords%pin(:, p, :))
-    end do
-  end function load_of
-
-  !> Work of the inertia loads of a body on all its functions.
+  !> Work of the inertia loads of a body on all its functions: `f = −∫ μ Sᵀ a dx`, the term −M Ü0 of
+  !! Ulker 2010 (2.77), (2.82) and (2.83).
   pure function inertia_work(linkage, grid, b, pose, case) result(work)
     type(linkage_t), intent(in) :: linkage
     type(turn_grid_t), intent(in) :: grid

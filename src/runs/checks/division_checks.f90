@@ -13,6 +13,7 @@ module division_checks
   use pose_types, only: pose_t
   use poses, only: place_links
   use redundancies, only: body_of_redundancy
+  use structures, only: has_beams
   implicit none (type, external)
   private
 
@@ -44,7 +45,7 @@ contains
     motion = report_number(model, "motion")
     in_motion = .false.
     if (motion > 0) in_motion = model%reports(motion)%with_forces
-    if (.not. allocated(mechanism%elastic)) then
+    if (.not. has_beams(mechanism)) then
       if (report > 0) then
         call add_error(diagnostics, model%reports(report)%keyword, "the forces "//in_links// &
           " cannot be told apart while all are rigid; REPORT drives, frame and lagrange do not "// &

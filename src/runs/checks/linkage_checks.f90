@@ -24,6 +24,7 @@ module linkage_checks
   use ram_checks, only: check_rams
   use redundancies, only: is_fit, largest_misfit
   use response_linkage_checks, only: check_running
+  use structures, only: has_beams
   use superfluous_drives, only: find_superfluous_drive
   use text, only: lower_case, plural, to_string
   use tokens, only: token_t
@@ -83,7 +84,7 @@ contains
       model%motor%keyword, "a MOTOR turns a link, and the first DRIVE gives a length; "// &
       "a FORCE on its pin, or a DRIVE of a link, may serve")
     call check_rams(model, mechanism, diagnostics)
-    if (allocated(mechanism%elastic)) call check_straight_guides(model, mechanism, diagnostics)
+    if (has_beams(mechanism)) call check_straight_guides(model, mechanism, diagnostics)
     if (needs_frequencies(model) .and. model%effects == effects_axial) call &
       warn_of_held_blocks(model, diagnostics)
     call check_reach(model, mechanism, model%crank, leaving, diagnostics)

@@ -43,11 +43,8 @@ contains
         model%reports(report)%keyword, "it is asked for here")
       return
     end if
-    if (allocated(mechanism%elastic)) then
-      call check_running_blocks(model, mechanism, report, diagnostics)
-      if (has_errors(diagnostics)) return
-    end if
-    call check_turn(model, mechanism, diagnostics)
+    call check_running_blocks(model, mechanism, report, diagnostics)
+    if (.not. has_errors(diagnostics)) call check_turn(model, mechanism, diagnostics)
   end subroutine check_running
 
   !> Whether the crank turns fully, without a dead point, where the elastic response asks for that.

@@ -57,8 +57,7 @@ contains
           request%program = model%program
           request%time = model%time%value
         end if
-        if (allocated(mechanism%elastic)) request%turns_fully = turns_fully(mechanism%linkage, &
-          through=.false.)
+        request%turns_fully = turns_fully(mechanism%linkage, through=.false.)
         request%ramp = model%ramp
         request%crank = asked%crank
         request%turns = asked%turns

@@ -170,14 +170,9 @@ contains
     type(elastic_linkage_t) :: elastic
     type(error_t), allocatable :: error
 
-    if (allocated(structure%elastic)) then
-      elastic = structure%elastic
-      call place_parts_of(structure%linkage, state%pose, elastic, placed, error)
-      parts = elastic%linkage
-    else
-      parts = structure%linkage
-      placed = state%pose
-    end if
+    elastic = structure%elastic
+    call place_parts_of(structure%linkage, state%pose, elastic, placed, error)
+    parts = elastic%linkage
   end subroutine place_parts
 
   !> Where joints and points of rigid links are, and how they move in modes: links have an end of a
@@ -212,8 +207,7 @@ contains
         b = joints(i)%body
         point = joints(i)%pin
         x(:, i) = state%pose%pin(:, point)
-        if (joints(i)%slider > 0 .and. allocated(structure%elastic)) point = &
-          max(point, structure%elastic%contact(joints(i)%slider))
+        if (joints(i)%slider > 0) point = max(point, structure%elastic%contact(joints(i)%slider))
       end if
       if (b > 0) call take_displacement(structure, parts, placed, shape, b, point, x(:, i), &
         moved(:, i, :))
@@ -277,8 +271,7 @@ contains
     integer, intent(in) :: part                !! number, from 1
     integer :: link
 
-    link = part
-    if (allocated(structure%elastic)) link = structure%elastic%body(part)
+    link = structure%elastic%body(part)
   end function link_of_part
 
 end module frequency_study

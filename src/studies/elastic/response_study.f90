@@ -32,14 +32,12 @@ contains
       allocate (response%at_speed(size(request%speed)))
       call set_error(error, error_of_reach, "the crank does not turn fully, or meets a dead "// &
         "point: there is no steady state")
-    else if (allocated(structure%elastic)) then
+    else
       call find_steady_responses(structure, request_of_parts(structure%elastic, request), threads, &
         store, response, error)
       do k = 1, size(response%at_speed)
         call join_parts(structure%elastic, size(structure%linkage%bodies), response%at_speed(k))
       end do
-    else
-      call find_steady_responses(structure, request, threads, store, response, error)
     end if
     if (request%validity .and. .not. allocated(error)) call add_distances(structure, request, &
       threads, store, response)
@@ -72,9 +70,7 @@ contains
     vibrations%modes = request%modes
     vibrations%accuracy = max(request%accuracy, finest)
     vibrations%terms = request%terms
-    vibrations%damping = request%damping
-    if (allocated(structure%elastic)) vibrations%damping = dampings_of_parts(structure%elastic, &
-      request%damping)
+    vibrations%damping = dampings_of_parts(structure%elastic, request%damping)
     call find_modal_distances(structure, vibrations, threads, store, found, error)
     if (allocated(error)) return
     do k = 1, size(at)

@@ -80,8 +80,7 @@ contains
     type(stability_request_t) :: of_bodies
 
     of_bodies = request
-    if (allocated(structure%elastic)) of_bodies%damping = dampings_of_parts(structure%elastic, &
-      request%damping)
+    of_bodies%damping = dampings_of_parts(structure%elastic, request%damping)
   end function of_vibrating_bodies
 
 end module stability_study

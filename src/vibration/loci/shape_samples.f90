@@ -54,7 +54,7 @@ contains
     type(bordered_modes_t), intent(in) :: found    !! modes at this position
     type(mode_request_t), intent(in) :: request    !! modes, points along each link
     type(shapes_t), intent(out) :: shapes          !! of the modes requested
-    type(elastic_linkage_t), intent(in), optional :: elastic !! where the links have parts
+    type(elastic_linkage_t), intent(in) :: elastic !! parts of the links
 
     type(drive_place_t) :: drive
     real(wp) :: turn
@@ -100,7 +100,7 @@ contains
     integer :: mode
 
     associate (linkage => structure%linkage)
-      drive = place_of_drive(linkage)
+      drive = place_of_drive(linkage, structure%elastic)
       allocate (shapes%displacement(3, request%points, size(linkage%bodies), request%modes))
       do mode = 1, request%modes
         turn = turn_at_drive(linkage, state%pose, drive, sampled(mode, coarse))
@@ -195,23 +195,18 @@ contains
     end associate
   end function arm_to
 
-  !> The joint of the first drive, and what it turns: of a four-bar the first body. Of parts it is
-  !! the pin of the link turned that stands still, or that this has in common with the link from
-  !! which its angle is measured; of a slider its own pin; without a drive the first ground pivot.
+  !> The joint of the first drive, and what it turns: the pin of the link turned that stands still,
+  !! or that this has in common with the link from which its angle is measured; of a slider its own
+  !! pin; without a drive the first ground pivot.
   pure function place_of_drive(linkage, elastic) result(place)
-    type(linkage_t), intent(in) :: linkage                   !! whose bodies are links or parts
-    type(elastic_linkage_t), intent(in), optional :: elastic !! of parts
+    type(linkage_t), intent(in) :: linkage         !! whose bodies are the parts
+    type(elastic_linkage_t), intent(in) :: elastic !! of these
     type(drive_place_t) :: place
 
     integer, allocatable :: others(:)
     integer :: i, k
 
     allocate (place%turns(size(linkage%bodies)), source=.false.)
-    if (.not. present(elastic)) then
-      place%turns(1) = .true.
-      place%pin = linkage%bodies(1)%first_pin
-      return
-    end if
     place%pin = max(1, findloc(linkage%is_ground, .true., dim=1))
     if (size(linkage%drives) == 0) return
     associate (drive => linkage%drives(1))

@@ -52,7 +52,7 @@ contains
         result%lambda(:, k), result%error(:, k))
       if (.not. want_shapes(k)) cycle
       call sample_reduced(structure%linkage, model, work%equations%chords, state%pose, found(k), &
-        request, result%shapes(k))
+        request, result%shapes(k), structure%elastic)
       result%counts%shapes = result%counts%shapes + request%modes
     end do
   end subroutine solve_mesh

@@ -92,13 +92,8 @@ contains
     type(ledger_t), intent(inout) :: counts          !! of the work done
     type(error_t), allocatable, intent(out) :: error !! why there is no model
 
-    if (allocated(structure%elastic)) then
-      call choose(structure, structure%elastic%linkage, structure%elastic%beams, positions, &
-        demand, store, model, counts, error)
-    else
-      call choose(structure, structure%linkage, structure%beams, positions, demand, store, model, &
-        counts, error)
-    end if
+    call choose(structure, structure%elastic%linkage, structure%elastic%beams, positions, demand, &
+      store, model, counts, error)
   end subroutine choose_orders
 
   !> Chooses the orders of the links of a model, which are the bodies of a linkage.
@@ -166,17 +161,11 @@ contains
 
       integer :: i
 
-      if (allocated(structure%elastic)) then
-        call new_deformation_model(linkage, beams, spread(0, 1, size(degrees)), spread(0, 1, &
-          size(degrees)), spread(.false., 1, size(degrees)), model, error, store, degrees, &
-          structure%elastic%held)
-        if (allocated(error)) return
-        call choose_form(structure, demand%modes, [(positions%states(chosen(i))%crank, i=1, &
-          size(chosen))], model)
-      else
-        call new_deformation_model(linkage, beams, spread(0, 1, size(degrees)), spread(0, 1, &
-          size(degrees)), spread(.false., 1, size(degrees)), model, error, store, degrees)
-      end if
+      call new_deformation_model(linkage, beams, spread(0, 1, size(degrees)), spread(0, 1, &
+        size(degrees)), spread(.false., 1, size(degrees)), model, error, store, degrees, &
+        structure%elastic%held)
+      if (.not. allocated(error)) call choose_form(structure, demand%modes, &
+        [(positions%states(chosen(i))%crank, i=1, size(chosen))], model)
     end subroutine make_model
 
   end subroutine choose
@@ -415,11 +404,8 @@ contains
           call modes_of_position(here, found(k), work%equations, modes)
           sample%error = max(sample%error, maxval(order_error(here%model, work%equations, &
             present_force, modes, modes%near), dim=2))
-        else if (allocated(structure%elastic)) then
-          sample%error = max(sample%error, maxval(order_error(here%model, work%equations, &
-            present_force, found(k), found(k)%near), dim=2))
         else
-          sample%error = max(sample%error, maxval(order_error(model, work%equations, &
+          sample%error = max(sample%error, maxval(order_error(here%model, work%equations, &
             present_force, found(k), found(k)%near), dim=2))
         end if
       end do

@@ -10,7 +10,7 @@ module vibration_models
   use load_cases, only: case_count, constant_case
   use order_choice, only: choose_orders, order_demand_t
   use positions, only: positions_t
-  use structures, only: damper_count, structure_t
+  use structures, only: structure_t
   implicit none (type, external)
   private
 
@@ -138,7 +138,9 @@ contains
     integer :: modes
 
     modes = wanted
-    if (damper_count(structure) > 0) modes = wanted + first_guards + damper_count(structure)
+    associate (dampers => size(structure%elastic%dampers))
+      if (dampers > 0) modes = wanted + first_guards + dampers
+    end associate
   end function modes_with_dampers
 
 end module vibration_models

@@ -25,7 +25,7 @@ contains
     real(wp) :: size_of(size(here%unit_force, 2))
 
     size_of = force_sizes(here%unit_force, factor)
-    if (size(here%unit_force) == 0 .or. .not. allocated(here%part_loads)) return
+    if (size(here%unit_force) == 0 .or. here%elastic%in_closed_form) return
     size_of = size_of + largest_load(here, factor) + abs(factor(constant_case))*( &
       pulls(here, here%elastic%springs, here%part_loads%pull) + &
       pulls(here, here%elastic%tensions, here%part_loads%tension))
@@ -109,7 +109,7 @@ contains
     integer :: i, n
 
     work = 0.0_wp
-    if (.not. allocated(here%part_forces) .or. size(here%unit_force) == 0) return
+    if (size(here%unit_force) == 0) return
     if (present(mixed_modes)) then
       work = largest_work(here%mixed, factor, mixed_modes, modes)
       return

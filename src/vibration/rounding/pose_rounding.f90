@@ -79,7 +79,7 @@ contains
     real(wp) :: sine, least_sine, spread, energy, multiple, far(modes)
     integer :: bridge, i
 
-    multiple = merge(multiple_of_parts, 1.0_wp, allocated(structure%elastic))
+    multiple = merge(1.0_wp, multiple_of_parts, structure%elastic%in_closed_form)
     spread = max(1.0_wp, length_spread(structure%linkage, state%pose)/usual_spread)
     sine = 1.0_wp
     if (size(state%pose%sine) > 0) sine = minval(abs(state%pose%sine))
@@ -95,7 +95,7 @@ contains
     if (any(abs(factor) > 0.0_wp)) least_sine = merge(loaded_near_sine, 1.0_wp, spread <= 1.0_wp)
     ! Links that are more than needed share their loads by their stiffnesses: a change of direction
     ! counts many times. So it does in the accelerations of groups that iterations place.
-    if (any(abs(factor) > 0.0_wp) .and. allocated(structure%elastic)) then
+    if (any(abs(factor) > 0.0_wp)) then
       if (size(structure%linkage%redundancies) > 0 .or. any(structure%linkage%groups%kind == &
         group_by_newton)) least_sine = huge(least_sine)
     end if
@@ -111,7 +111,7 @@ contains
         mixed_modes)
       error = 2.0_wp*multiple*error
       ! Forces that cancel at every length leave their rounding.
-      if (allocated(structure%elastic)) error = error + near_multiple*epsilon(1.0_wp)* &
+      if (.not. structure%elastic%in_closed_form) error = error + near_multiple*epsilon(1.0_wp)* &
         relative_error(load_work(:modes), found%lambda(:modes))
     end if
     error(:min(found%zeros, modes)) = 0.0_wp
@@ -257,14 +257,10 @@ contains
     integer, intent(in) :: body
     real(wp), intent(in) :: factor
 
-    if (allocated(structure%elastic)) then
-      call scaled_link(structure%linkage, structure%elastic, body, factor)
-      ! A redundant link that has become longer would not fit.
-      deallocate (structure%linkage%redundancies)
-      allocate (structure%linkage%redundancies(0))
-    else
-      structure%linkage%bodies(body)%length = structure%linkage%bodies(body)%length*factor
-    end if
+    call scaled_link(structure%linkage, structure%elastic, body, factor)
+    ! A redundant link that has become longer would not fit.
+    deallocate (structure%linkage%redundancies)
+    allocate (structure%linkage%redundancies(0))
   end subroutine scale_link
 
   !> Ratio of the largest of all lengths and distances between the bases of dyads to the shortest
@@ -316,7 +312,7 @@ contains
     reached = .not. allocated(error)
     if (.not. reached) return
     coefficients = find_kinematic_coefficients(structure%linkage, pose)
-    if (allocated(structure%elastic)) here%elastic = structure%elastic
+    here%elastic = structure%elastic
     call assemble_position(structure, model, pose, coefficients, reshape(factor, [case_count, 1]), &
       equations, here, outcome, counts)
     reached = .not. allocated(outcome(1)%error)
