@@ -22,14 +22,15 @@ module critical_speeds
   use multiplier_angles, only: angle_t, angles_of, nearest_to_one
   use multiplier_crossings, only: beside, crossing_t, find_crossings
   use resonance_growth, only: find_growth
-  use response_levels, only: damping_of, level_slot_t, level_t, need_level, sample_numbers
+  use refinements, only: refinement_t
+  use response_levels, only: damping_of, level_slot_t, level_t
   use response_peaks, only: find_peaks, sampled_deflections
   use response_types, only: no_damping, response_request_t, speed_response_t
   use stability_types, only: stability_request_t
   use structures, only: structure_t
   use turn_grids, only: turn_grid_t
-  use turn_spectra, only: find_spectrum, first_order, first_samples, need_two_levels, &
-    slow_number, turn_spectrum_t
+  use turn_spectra, only: begin_refinements, find_spectrum, need_two_levels, slow_number, &
+    turn_spectrum_t
   implicit none (type, external)
   private
 
@@ -124,6 +125,7 @@ contains
     type(level_slot_t), allocatable :: levels(:)
     type(crossing_t), allocatable :: crossing(:)
     type(candidate_t), allocatable :: candidate(:)
+    type(refinement_t), allocatable :: refinement(:)
     real(wp), allocatable :: rough(:), at_rest(:)
     real(wp) :: range(2) !! of the speeds asked for [rad/s]
     integer :: i
@@ -136,15 +138,21 @@ contains
     call find_crossings(structure, wider, frequency, threads, store, levels, crossing, gap, error)
     if (allocated(error) .or. was_interrupted()) return
     gap = pack(gap, gap%speed(2) > range(1) .and. gap%speed(1) < range(2))
-    allocate (candidate(size(crossing)), rough(size(crossing)), at_rest(size(crossing)))
+    allocate (candidate(size(crossing)), refinement(size(crossing)), rough(size(crossing)), &
+      at_rest(size(crossing)))
+    call begin_refinements(structure, request, request%modes, sign(crossing%speed, &
+      request%speed(1)), store, levels, refinement, error)
+    if (allocated(error)) return
+    ! All, where samples are too few with as many as possible.
+    refinement%pending = .true.
+    call need_two_levels(structure, request, refinement, store, levels, error)
+    if (allocated(error) .or. was_interrupted()) return
     do i = 1, size(crossing)
       candidate(i)%crossing = crossing(i)
       candidate(i)%speed = crossing(i)%speed
       candidate(i)%centre = crossing(i)%angle%growth
       candidate(i)%square = crossing(i)%angle%apart**2
-      call find_levels(structure, request, crossing(i)%speed, store, levels, candidate(i)%level, &
-        error)
-      if (allocated(error) .or. was_interrupted()) return
+      candidate(i)%level = refinement(i)%level
     end do
     rough = 0.0_wp
     at_rest = 0.0_wp
@@ -207,29 +215,6 @@ contains
     end function is_outside
 
   end subroutine find_critical_speeds
-
-  !> Finds or makes the levels of both solutions of an excitation.
-  subroutine find_levels(structure, request, speed, store, levels, number, error)
-    class(structure_t), intent(in) :: structure
-    type(stability_request_t), intent(in) :: request
-    real(wp), intent(in) :: speed
-    type(link_store_t), intent(inout) :: store
-    type(level_slot_t), allocatable, intent(inout) :: levels(:)
-    integer, intent(out) :: number(2)
-    type(error_t), allocatable, intent(out) :: error
-
-    integer :: at, order
-    logical :: backwards
-
-    backwards = request%speed(1) < 0.0_wp
-    order = first_order(request%accuracy)
-    call need_level(structure, order, sample_numbers(1), backwards, store, levels, number(1), error)
-    if (allocated(error)) return
-    at = first_samples(levels(number(1))%level%grid, request%modes, speed, request%accuracy)
-    if (at == 0) at = size(sample_numbers)
-    call need_two_levels(structure, request, order, sample_numbers(at), backwards, store, levels, &
-      number, error)
-  end subroutine find_levels
 
   !> The excitation by the slow motion alone, and the deflection under the same loads at rest.
   subroutine find_rough(request, level, candidate, excitation, at_rest)

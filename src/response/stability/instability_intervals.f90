@@ -9,20 +9,20 @@
 module instability_intervals
   use errors, only: error_t
   use exponent_meetings, only: find_interval, interval_t
-  use interruption, only: was_interrupted
   use interval_checks, only: confirm_intervals
   use kinds, only: wp
   use link_store, only: link_store_t
   use meeting_exponents, only: begin_with, close_pair, find_numbers, meeting_pair_t, meeting_t, &
     open_pair
-  use multiplier_meetings, only: add_gap, find_meetings, samples_at
-  use response_levels, only: level_slot_t, need_level, sample_numbers
+  use multiplier_meetings, only: add_gap, find_meetings, least_modes
+  use refinements, only: begin_round, raise, refinement_limits_t, refinement_t
+  use response_levels, only: level_slot_t
   use response_types, only: link_damping_t, no_damping
   use sorting, only: ascending_order
   use stability_types, only: instability_t, intervals_t, stability_request_t, &
     unstable_combination, unstable_flip, unstable_fold
   use structures, only: structure_t
-  use turn_spectra, only: first_order, need_two_levels, slow_number
+  use turn_spectra, only: begin_refinements, need_two_levels, slow_number
   implicit none (type, external)
   private
 
@@ -34,8 +34,7 @@ module instability_intervals
   !> Share of the speed to which edges are found by the slow motion.
   real(wp), parameter :: to_begin = 1.0e-4_wp
 
-  !> Most times orders and samples are raised, and the largest order.
-  integer, parameter :: most_rounds = 3, most_order = 24
+  type(refinement_limits_t), parameter :: limits = refinement_limits_t(order=24, rounds=2)
 
   !> Estimated errors are this many times the difference of both solutions, and no less than these
   !! shares of the accuracy and of the width or the growth, for the parabolas.
@@ -43,9 +42,7 @@ module instability_intervals
 
   !> A meeting on its way.
   type :: search_t
-    integer :: order = 0, at = 0                !! degree, number in `sample_numbers`
-    integer :: level(2) = 0                     !! numbers of the levels of both solutions
-    logical :: pending = .true.
+    logical :: wanted = .true.
     type(instability_t) :: interval
     character(len=80) :: fault = ""
   end type search_t
@@ -79,7 +76,7 @@ contains
     call measure(structure, undamped, threads, store, meetings, searches, error)
     if (allocated(error)) return
     if (any(request%damping%kind /= no_damping)) then
-      searches%pending = searches%interval%growth > 0.0_wp
+      searches%wanted = searches%interval%growth > 0.0_wp
       meetings%from = searches%interval%from
       meetings%at = searches%interval%at
       meetings%to = searches%interval%to
@@ -163,34 +160,27 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     type(level_slot_t), allocatable, target :: levels(:)
-    integer :: i, number, round
+    type(refinement_t) :: refinement(size(searches))
+    integer :: i
+    logical :: begun
 
     allocate (levels(0))
-    if (size(searches) == 0) return
-    call need_level(structure, first_order(request%accuracy), sample_numbers(1), &
-      request%speed(1) < 0.0_wp, store, levels, number, error)
+    refinement%limits = limits
+    refinement%pending = searches%wanted
+    call begin_refinements(structure, request, max(request%modes, least_modes), &
+      sign(meetings%at, request%speed(1)), store, levels, refinement, error)
     if (allocated(error)) return
     do i = 1, size(searches)
-      if (.not. searches(i)%pending) cycle
-      searches(i)%order = first_order(request%accuracy)
-      searches(i)%at = samples_at(levels(number)%level%grid, request%modes, &
-        meetings(i)%at, request%accuracy)
-      if (searches(i)%at > 0) cycle
-      searches(i)%pending = .false.
-      searches(i)%fault = "too many vibrations in a turn of the crank"
+      if (searches(i)%wanted .and. .not. refinement(i)%pending) searches(i)%fault = &
+        "too many vibrations in a turn of the crank"
     end do
-    do round = 1, most_rounds
+    do while (any(refinement%pending))
+      call need_two_levels(structure, request, refinement, store, levels, error)
+      if (allocated(error)) return
+      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i, begun)
       do i = 1, size(searches)
-        if (.not. searches(i)%pending) cycle
-        call need_two_levels(structure, request, searches(i)%order, &
-          sample_numbers(searches(i)%at), request%speed(1) < 0.0_wp, store, levels, &
-          searches(i)%level, error)
-        if (allocated(error)) return
-      end do
-      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
-      do i = 1, size(searches)
-        if (.not. searches(i)%pending .or. was_interrupted()) cycle
-        call measure_interval(meetings(i), searches(i))
+        call begin_round(refinement(i), begun)
+        if (begun) call measure_interval(meetings(i), refinement(i), searches(i))
       end do
       !$omp end parallel do
     end do
@@ -198,8 +188,9 @@ contains
   contains
 
     !> Measures one on both levels.
-    subroutine measure_interval(meeting, search)
+    subroutine measure_interval(meeting, refinement, search)
       type(meeting_t), intent(in) :: meeting
+      type(refinement_t), intent(inout) :: refinement
       type(search_t), intent(inout) :: search
 
       type(meeting_pair_t) :: pair(2)
@@ -209,7 +200,7 @@ contains
       logical :: good
 
       do k = 1, 2
-        associate (level => levels(search%level(k))%level)
+        associate (level => levels(refinement%level(k))%level)
           call open_pair(request, level, slow_number(level%grid, request%modes), meeting, &
             .true., pair(k))
         end associate
@@ -233,8 +224,7 @@ contains
         certain*request%least_growth
       if (.not. good) search%fault = "their exponents are not found"
       search%interval%growth = 0.0_wp
-      search%pending = good .and. of(2)%growth > 0.0_wp
-      if (.not. search%pending) return
+      if (.not. good .or. of(2)%growth <= 0.0_wp) return
       associate (interval => search%interval)
         doubt = safety*maxval(pair%doubt)
         interval%growth_error = safety*abs(of(2)%growth - of(1)%growth) + (of_width + doubt)* &
@@ -251,12 +241,9 @@ contains
             > 0.25_wp)
         end associate
         interval%mode = [minval(pair(2)%number), maxval(pair(2)%number)]
-        search%pending = search%order + 2 <= most_order .and. search%at < size(sample_numbers) &
-          .and. (interval%error > request%accuracy*interval%at .or. &
-          interval%growth_error > request%accuracy)
+        if (interval%error > request%accuracy*interval%at .or. interval%growth_error > &
+          request%accuracy) call raise(refinement, 1, refinement%samples + 1)
       end associate
-      search%order = search%order + 2
-      search%at = min(search%at + 1, size(sample_numbers))
     end subroutine measure_interval
 
     !> Edges and peak by the slow motion, whose speeds cost little.

@@ -7,20 +7,19 @@
 !! result, the difference its error.
 module modal_distances
   use constants, only: two_pi
-  use errors, only: error_of_numerics, error_t, set_error
+  use errors, only: error_t
   use floquet_exponents, only: find_floquet_modes, floquet_mode_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
-  use interruption, only: was_interrupted
   use kinds, only: long, wp
   use link_store, only: link_store_t
   use mode_numbers, only: growing_mode, most_spread
   use order_transfer, only: transferred_halves
-  use response_levels, only: damping_of, level_slot_t, level_t, need_level, sample_numbers
+  use refinements, only: add_work, begin_round, compare, raise, refinement_limits_t, refinement_t
+  use response_levels, only: damping_of, level_slot_t, level_t
   use stability_types, only: stability_request_t
   use structures, only: structure_t
-  use text, only: to_string
-  use turn_spectra, only: find_spectrum, first_order, first_samples, need_two_levels, &
-    orders_above, turn_spectrum_t
+  use turn_spectra, only: begin_refinements, find_spectrum, need_two_levels, set_too_slow, &
+    turn_spectrum_t
   implicit none (type, external)
   private
 
@@ -42,12 +41,8 @@ module modal_distances
   !! share of the accuracy: two solutions may agree by chance.
   real(wp), parameter :: safety = 3.0_wp, least_share = 1.0e-2_wp
 
-  !> Largest order, and most times that order and samples are raised.
-  integer, parameter :: most_order = 26, most_rounds = 6
-
-  !> They are not raised any more when so much work is done at a speed: samples × unknowns ×
-  !! applications of the equation.
-  integer(long), parameter :: most_work = 10000000_long
+  type(refinement_limits_t), parameter :: limits = refinement_limits_t(order=26, rounds=6, &
+    work=10000000_long)
 
   !> At one speed.
   type :: modal_distance_t
@@ -55,16 +50,6 @@ module modal_distances
     real(wp) :: error = huge(1.0_wp)    !! relative
     type(error_t), allocatable :: why   !! there is none
   end type modal_distance_t
-
-  !> Orders and samples of a speed.
-  type :: choice_t
-    integer :: order = 0
-    integer :: at = 0        !! of `sample_numbers`
-    integer :: level(2) = 0  !! numbers of the levels of both solutions
-    integer :: round = 0     !! times raised
-    integer(long) :: work = 0_long
-    logical :: pending = .true.
-  end type choice_t
 
 contains
 
@@ -81,43 +66,28 @@ contains
     type(error_t), allocatable, intent(out) :: error !! why there is nothing at any speed
 
     type(level_slot_t), allocatable :: levels(:)
-    type(choice_t) :: choice(size(request%speed))
-    integer, allocatable :: pending(:)
-    integer :: first, i, k, order
+    type(refinement_t) :: refinement(size(request%speed))
+    integer :: k
+    logical :: begun
 
-    allocate (found(size(request%speed)), levels(0))
-    order = first_order(request%accuracy)
-    call need_level(structure, order, sample_numbers(1), .false., store, levels, first, error)
+    allocate (found(size(refinement)), levels(0))
+    refinement%limits = limits
+    call begin_refinements(structure, request, request%modes, request%speed, store, levels, &
+      refinement, error)
     if (allocated(error)) return
-    do k = 1, size(choice)
-      choice(k)%order = order
-      choice(k)%at = first_samples(levels(first)%level%grid, request%modes, request%speed(k), &
-        request%accuracy)
-      if (choice(k)%at > 0) cycle
-      choice(k)%pending = .false.
-      call set_error(found(k)%why, error_of_numerics, "the crank turns too slowly: more "// &
-        "vibrations a turn than "//to_string(sample_numbers(size(sample_numbers)))// &
-        " samples resolve")
+    do k = 1, size(refinement)
+      if (.not. refinement(k)%pending) call set_too_slow(request, found(k)%why)
     end do
-    do
-      pending = pack([(k, k=1, size(choice))], choice%pending)
-      if (size(pending) == 0) exit
-      do i = 1, size(pending)
-        associate (here => choice(pending(i)))
-          call need_two_levels(structure, request, here%order, sample_numbers(here%at), &
-            request%speed(pending(i)) < 0.0_wp, store, levels, here%level, error, &
-            slow=request%modes + slow_above)
-        end associate
-        if (allocated(error)) return
-      end do
-      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
-      do i = 1, size(pending)
-        ! An interrupted run leaves no results.
-        choice(pending(i))%pending = .not. was_interrupted()
-        if (.not. choice(pending(i))%pending) cycle
-        associate (here => choice(pending(i)))
-          call solve_speed(request, abs(request%speed(pending(i))), levels(here%level(1))%level, &
-            levels(here%level(2))%level, here, found(pending(i)))
+    do while (any(refinement%pending))
+      call need_two_levels(structure, request, refinement, store, levels, error, &
+        slow=request%modes + slow_above)
+      if (allocated(error)) return
+      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k, begun)
+      do k = 1, size(refinement)
+        associate (here => refinement(k))
+          call begin_round(here, begun)
+          if (begun) call solve_speed(request, abs(request%speed(k)), levels(here%level(1))%level, &
+            levels(here%level(2))%level, here, found(k))
         end associate
       end do
       !$omp end parallel do
@@ -125,11 +95,11 @@ contains
   end subroutine find_modal_distances
 
   !> Solves one speed on both levels; raises order and samples if that is not good enough.
-  subroutine solve_speed(request, speed, level, above, choice, found)
+  subroutine solve_speed(request, speed, level, above, refinement, found)
     type(stability_request_t), intent(in) :: request
     real(wp), intent(in) :: speed
     type(level_t), intent(in) :: level, above
-    type(choice_t), intent(inout) :: choice
+    type(refinement_t), intent(inout) :: refinement
     type(modal_distance_t), intent(inout) :: found
 
     type(fourier_plan_t) :: plan, above_plan
@@ -140,7 +110,6 @@ contains
     integer, allocatable :: wanted(:), near(:)
     integer :: i, slow
 
-    choice%pending = .false.
     slow = request%modes + slow_above
     call open_fourier(level%grid%samples, plan)
     call open_fourier(above%grid%samples, above_plan)
@@ -199,9 +168,8 @@ contains
         tolerance(2), above_spectrum%mode, wanted(near), better, known)
       do i = 1, size(near)
         associate (slow => above_spectrum%mode(wanted(near(i)))%exponent)
-          choice%work = choice%work + int(modes(i)%applications, long)*level%grid%samples* &
-            level%grid%unknowns + int(better(i)%applications, long)*above%grid%samples* &
-            above%grid%unknowns
+          call add_work(refinement, level%grid, modes(i)%applications)
+          call add_work(refinement, above%grid, better(i)%applications)
           ! Iterations that lead elsewhere say nothing.
           if (two_pi*apart_from(better(i)%exponent, slow) > about .or. max(modes(i)%change, &
             better(i)%change) > about) cycle
@@ -214,17 +182,15 @@ contains
 
     !> Keeps the better result, and raises order and samples if it is not good enough.
     subroutine settle
-      if (.not. allocated(here%why)) then
-        if (here%error < found%error) found = here
-      else if (found%error >= huge(1.0_wp)) then
-        found%why = here%why
+      logical :: is_best
+
+      if (allocated(here%why)) then
+        if (found%error >= huge(1.0_wp)) found%why = here%why
+      else
+        call compare(refinement, here%error, is_best)
+        if (is_best) found = here
       end if
-      if (found%error <= request%accuracy) return
-      choice%round = choice%round + 1
-      choice%pending = choice%round <= most_rounds .and. choice%work < most_work .and. &
-        choice%at < size(sample_numbers) .and. choice%order < most_order
-      choice%at = choice%at + 1
-      choice%order = choice%order + orders_above
+      if (found%error > request%accuracy) call raise(refinement, 1, refinement%samples + 1)
     end subroutine settle
 
     !> The least distance of multipliers from 1, and how far errors may move it.

@@ -13,7 +13,8 @@ module multiplier_crossings
   use link_store, only: link_store_t
   use multiplier_angles, only: angle_t, angles_t, find_angles, match_angles, nearest_to_one, &
     wrapped
-  use response_levels, only: level_slot_t, need_basis, need_level, sample_numbers
+  use refinements, only: sample_numbers
+  use response_levels, only: level_slot_t, need_basis, need_level
   use stability_types, only: stability_request_t
   use structures, only: structure_t
   use turn_spectra, only: first_order, first_samples, slow_number

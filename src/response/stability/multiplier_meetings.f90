@@ -13,7 +13,8 @@ module multiplier_meetings
   use meeting_exponents, only: bound_growth, close_pair, find_numbers, meeting_pair_t, meeting_t, &
     open_pair
   use multiplier_stations, only: match_stations, new_station, plane_of, plane_t, station_t
-  use response_levels, only: level_slot_t, need_basis, need_level, sample_numbers
+  use refinements, only: most_samples, sample_numbers
+  use response_levels, only: level_slot_t, need_basis, need_level
   use stability_types, only: gap_t, intervals_t, stability_request_t
   use structures, only: structure_t
   use text, only: to_string
@@ -22,7 +23,7 @@ module multiplier_meetings
   implicit none (type, external)
   private
 
-  public :: find_meetings, add_gap, samples_at
+  public :: find_meetings, add_gap, least_modes
 
   !> Steps of the speed, in terms of it, and in which the fastest vibration wanted turns by no more
   !! than the second; most times one is halved.
@@ -121,7 +122,7 @@ contains
       from = 1.1_wp*from
     end do
     if (from > range(1)) call add_gap(range(1), from, "too many vibrations in a turn of the "// &
-      "crank for "//to_string(sample_numbers(size(sample_numbers)))//" samples", found)
+      "crank for "//to_string(most_samples)//" samples", found)
     if (from >= range(2)) return
     call find_fastest
     speeds = [from]

@@ -11,12 +11,12 @@ module stability
   use floquet_exponents, only: find_floquet_modes, floquet_mode_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
   use frozen_modes, only: find_frozen_frequencies
-  use interruption, only: was_interrupted
   use kinds, only: long, wp
   use link_store, only: link_store_t
   use mode_numbers, only: growing_mode, most_spread
   use order_transfer, only: transferred_halves
-  use response_levels, only: damping_of, level_slot_t, level_t, need_level, sample_numbers
+  use refinements, only: add_work, begin_round, compare, raise, refinement_limits_t, refinement_t
+  use response_levels, only: damping_of, level_slot_t, level_t
   use response_types, only: no_damping
   use sorting, only: ascending_order
   use stability_types, only: exponent_t, speed_stability_t, stability_request_t, &
@@ -24,8 +24,8 @@ module stability
   use structures, only: structure_t
   use text, only: to_string
   use turn_grids, only: turn_grid_t
-  use turn_spectra, only: find_spectrum, first_order, first_samples, need_two_levels, &
-    samples_a_period, slow_number, turn_spectrum_t, vibrations_of
+  use turn_spectra, only: begin_refinements, find_spectrum, need_two_levels, set_too_slow, &
+    slow_number, turn_spectrum_t
   implicit none (type, external)
   private
 
@@ -39,13 +39,9 @@ module stability
   !> No error is stated smaller than this share of the accuracy: two solutions may agree by chance.
   real(wp), parameter :: least_share = 1.0e-2_wp
 
-  !> Largest order, most times that order and samples are raised, and what each has to gain.
-  integer, parameter :: most_order = 26, most_rounds = 6
-  real(wp), parameter :: least_gain = 0.5_wp
-
-  !> They are not raised any more when so much work is done at a speed, some two seconds: samples ×
-  !! unknowns × applications of the equation.
-  integer(long), parameter :: most_work = 10000000_long
+  !> The work at a speed takes some two seconds.
+  type(refinement_limits_t), parameter :: limits = refinement_limits_t(order=26, rounds=6, &
+    work=10000000_long, gain=0.5_wp, idle=1)
 
   !> Vibrations of the frozen linkage that fade by more than e to this in a turn beside the slowest
   !! to fade: those of the moving one may be lost in rounding.
@@ -63,17 +59,6 @@ module stability
   !> With damping, multipliers that have met are no farther from each other than this.
   real(wp), parameter :: met = 0.05_wp
 
-  !> Orders and samples of a speed.
-  type :: choice_t
-    integer :: order = 0
-    integer :: at = 0        !! of `sample_numbers`
-    integer :: level(2) = 0  !! numbers of the levels of both solutions
-    integer :: round = 0     !! times raised
-    logical :: pending = .true.
-    real(wp) :: smallest = huge(1.0_wp) !! largest error of the best result so far
-    integer(long) :: work = 0_long !! so far, in the units of `most_work`
-  end type choice_t
-
 contains
 
   !> Finds the exponents at all speeds.
@@ -89,50 +74,27 @@ contains
     type(error_t), allocatable, intent(out) :: error !! why there is nothing at any speed
 
     type(level_slot_t), allocatable :: levels(:)
-    type(choice_t) :: choice(size(request%speed))
-    integer, allocatable :: pending(:)
-    integer :: first, i, k, most_samples, n, order, samples
+    type(refinement_t) :: refinement(size(request%speed))
+    integer :: k
+    logical :: begun
 
-    n = size(request%speed)
-    most_samples = sample_numbers(size(sample_numbers))
-    if (request%samples > 0) most_samples = request%samples
-    allocate (found%at_speed(n), levels(0))
-    order = first_order(request%accuracy)
-    call need_level(structure, order, sample_numbers(1), .false., store, levels, first, error)
+    allocate (found%at_speed(size(refinement)), levels(0))
+    refinement%limits = limits
+    call begin_refinements(structure, request, request%modes, request%speed, store, levels, &
+      refinement, error)
     if (allocated(error)) return
-    do k = 1, n
-      choice(k)%order = order
-      choice(k)%at = first_samples(levels(first)%level%grid, request%modes, request%speed(k), &
-        request%accuracy)
-      if (request%samples > 0 .and. choice(k)%at > 0) then
-        if (samples_a_period*vibrations_of(levels(first)%level%grid, request%modes, &
-          request%speed(k)) > request%samples) choice(k)%at = 0
-      end if
-      if (choice(k)%at > 0) cycle
-      choice(k)%pending = .false.
-      call set_error(found%at_speed(k)%error, error_of_numerics, "the crank turns too slowly: "// &
-        "more vibrations a turn than "//to_string(most_samples)//" samples resolve")
+    do k = 1, size(refinement)
+      if (.not. refinement(k)%pending) call set_too_slow(request, found%at_speed(k)%error)
     end do
-    do
-      pending = pack([(k, k=1, n)], choice%pending)
-      if (size(pending) == 0) exit
-      do i = 1, size(pending)
-        associate (here => choice(pending(i)))
-          samples = sample_numbers(here%at)
-          if (request%samples > 0) samples = request%samples
-          call need_two_levels(structure, request, here%order, samples, request%speed(pending(i)) &
-            < 0.0_wp, store, levels, here%level, error)
-        end associate
-        if (allocated(error)) return
-      end do
-      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
-      do i = 1, size(pending)
-        ! An interrupted run leaves no results.
-        choice(pending(i))%pending = .not. was_interrupted()
-        if (.not. choice(pending(i))%pending) cycle
-        associate (here => choice(pending(i)))
-          call solve_speed(request, abs(request%speed(pending(i))), levels(here%level(1))%level, &
-            levels(here%level(2))%level, here, found%at_speed(pending(i)))
+    do while (any(refinement%pending))
+      call need_two_levels(structure, request, refinement, store, levels, error)
+      if (allocated(error)) return
+      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k, begun)
+      do k = 1, size(refinement)
+        associate (here => refinement(k))
+          call begin_round(here, begun)
+          if (begun) call solve_speed(request, abs(request%speed(k)), levels(here%level(1))%level, &
+            levels(here%level(2))%level, here, found%at_speed(k))
         end associate
       end do
       !$omp end parallel do
@@ -141,11 +103,11 @@ contains
 
   !> Solves one speed on both levels: its result, and its next choice of orders and samples if it is
   !! not accurate enough.
-  subroutine solve_speed(request, speed, level, above, choice, found)
+  subroutine solve_speed(request, speed, level, above, refinement, found)
     type(stability_request_t), intent(in) :: request
     real(wp), intent(in) :: speed
     type(level_t), intent(in) :: level, above
-    type(choice_t), intent(inout) :: choice
+    type(refinement_t), intent(inout) :: refinement
     type(speed_stability_t), intent(inout) :: found
 
     type(speed_stability_t) :: here
@@ -154,10 +116,8 @@ contains
     type(floquet_mode_t), allocatable :: modes(:), above_modes(:), known(:)
     real(wp), allocatable :: mean(:)
     integer, allocatable :: wanted(:), above_wanted(:)
-    real(wp) :: largest
     integer :: slow
 
-    choice%pending = .false.
     slow = slow_number(above%grid, request%modes)
     call open_fourier(level%grid%samples, plan)
     call open_fourier(above%grid%samples, above_plan)
@@ -174,12 +134,12 @@ contains
       above_wanted = matched(spectrum, wanted, above_spectrum)
       call refine_all(request, solved_to(1), level, plan, speed, spectrum, wanted, modes, &
         here%error)
-      call add_work(level%grid, sum(modes%applications))
+      call count_work(level%grid, sum(modes%applications))
       if (allocated(here%error)) exit attempt
       call transfer
       call refine_all(request, solved_to(2), above, above_plan, speed, above_spectrum, &
         above_wanted, above_modes, here%error, known)
-      call add_work(above%grid, sum(above_modes%applications))
+      call count_work(above%grid, sum(above_modes%applications))
       if (allocated(here%error)) exit attempt
       call choose
       here%order = above%order
@@ -377,35 +337,26 @@ contains
       end associate
     end function separation
 
-    subroutine add_work(grid, applications)
+    subroutine count_work(grid, applications)
       type(turn_grid_t), intent(in) :: grid
       integer, intent(in) :: applications
 
       here%applications = here%applications + applications
-      choice%work = choice%work + int(applications, long)*grid%samples*grid%unknowns
-    end subroutine add_work
+      call add_work(refinement, grid, applications)
+    end subroutine count_work
 
     !> Keeps the better result, and raises order and samples if it is not good enough.
     subroutine settle
+      real(wp) :: largest
+      logical :: is_best
+
       here%applications = max(here%applications, found%applications)
       largest = huge(1.0_wp)
       if (allocated(here%exponent)) largest = maxval(here%exponent%error)
-      if (largest < choice%smallest .or. .not. allocated(found%exponent)) then
-        choice%pending = largest > request%accuracy
-        if (allocated(here%exponent)) choice%pending = choice%pending .and. largest <= &
-          least_gain*choice%smallest
-        choice%smallest = min(largest, choice%smallest)
-        found = here
-      end if
+      call compare(refinement, largest, is_best)
+      if (largest > request%accuracy) call raise(refinement, 1, refinement%samples + 1)
+      if (is_best .or. .not. allocated(found%exponent)) found = here
       found%applications = here%applications
-      if (.not. choice%pending) return
-      choice%round = choice%round + 1
-      choice%pending = choice%round <= most_rounds .and. choice%work < most_work .and. &
-        choice%at < size(sample_numbers) .and. choice%order < most_order
-      if (.not. choice%pending) return
-      choice%pending = choice%pending .and. request%samples == 0
-      choice%at = choice%at + 1
-      choice%order = choice%order + 2
     end subroutine settle
 
   end subroutine solve_speed

@@ -2,26 +2,25 @@
 !! solved: with other orders, and with samples that are no multiple, so that the difference of both
 !! solutions is an error.
 module turn_spectra
-  use errors, only: error_t
+  use errors, only: error_of_numerics, error_t, set_error
   use fourier_transform, only: fourier_plan_t
   use kinds, only: wp
   use link_store, only: link_store_t
   use mode_numbers, only: numbers_of
-  use response_levels, only: level_slot_t, level_t, need_basis, need_level, sample_numbers
+  use refinements, only: most_samples, refinement_t, sample_numbers
+  use response_levels, only: level_slot_t, level_t, need_basis, need_level, need_levels
   use slow_motions, only: add_shape_frequencies, new_slow_motion, own_squares, slow_mode_t, &
     slow_modes, slow_motion_t
   use sorting, only: ascending_order
   use stability_types, only: stability_request_t
   use structures, only: structure_t
+  use text, only: to_string
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
 
-  public :: turn_spectrum_t, find_spectrum, need_two_levels, first_order, first_samples, &
-    vibrations_of, slow_number, samples_a_period, orders_above
-
-  !> Orders of the second level above those of the first; its samples are half as many more.
-  integer, parameter :: orders_above = 2
+  public :: turn_spectrum_t, find_spectrum, begin_refinements, set_too_slow, need_two_levels, &
+    first_order, first_samples, slow_number
 
   !> Slow coordinates beside those of the modes wanted, and at least; and all deformations up to so
   !! many times the frequency of these: alike links have as many alike ones, and without some of
@@ -53,6 +52,52 @@ contains
     order = max(8, min(4 + 2*ceiling(-0.5_wp*log10(accuracy)), 16))
   end function first_order
 
+  !> Order and samples to begin with at every speed. Where vibrations a turn are more than samples
+  !! resolve, there are as many as possible, and nothing is pending.
+  !!
+  !! Errors: as `need_level`.
+  subroutine begin_refinements(structure, request, modes, speed, store, levels, refinement, error)
+    class(structure_t), intent(in) :: structure      !! linkage and beams
+    type(stability_request_t), intent(in) :: request !! accuracy; samples, if they are given
+    integer, intent(in) :: modes                     !! that are resolved
+    real(wp), intent(in) :: speed(:)                 !! ω2 [rad/s]
+    type(link_store_t), intent(inout) :: store       !! links decomposed earlier
+    type(level_slot_t), allocatable, intent(inout) :: levels(:) !! made so far
+    type(refinement_t), intent(inout) :: refinement(:) !! (speeds) with limits
+    type(error_t), allocatable, intent(out) :: error !! why there is nothing at any speed
+
+    integer :: at, first, k
+
+    if (size(speed) == 0) return
+    refinement%order = first_order(request%accuracy)
+    refinement%backwards = speed < 0.0_wp
+    call need_level(structure, refinement(1)%order, sample_numbers(1), refinement(1)%backwards, &
+      store, levels, first, error)
+    if (allocated(error)) return
+    do k = 1, size(speed)
+      associate (grid => levels(first)%level%grid, here => refinement(k))
+        at = first_samples(grid, modes, speed(k), request%accuracy)
+        here%samples = sample_numbers(merge(at, size(sample_numbers), at > 0))
+        here%pending = here%pending .and. at > 0
+        if (request%samples == 0) cycle
+        here%samples = request%samples
+        here%limits%rounds = 0
+        here%pending = here%pending .and. samples_a_period*vibrations_of(grid, modes, speed(k)) &
+          <= here%samples
+      end associate
+    end do
+  end subroutine begin_refinements
+
+  !> Says that a speed has more vibrations a turn than samples resolve.
+  pure subroutine set_too_slow(request, error)
+    type(stability_request_t), intent(in) :: request
+    type(error_t), allocatable, intent(out) :: error
+
+    call set_error(error, error_of_numerics, "the crank turns too slowly: more vibrations a "// &
+      "turn than "//to_string(merge(request%samples, most_samples, request%samples > 0))// &
+      " samples resolve")
+  end subroutine set_too_slow
+
   !> Samples to begin with, from the vibrations a turn of the highest mode wanted.
   pure function first_samples(grid, modes, speed, accuracy) result(at)
     type(turn_grid_t), intent(in) :: grid
@@ -65,9 +110,8 @@ contains
     vibrations = vibrations_of(grid, modes, speed)
     wanted = (64.0_wp + 10.0_wp*min(vibrations, 1.0e6_wp))*(0.4_wp - 0.075_wp*log10(accuracy))
     at = 0
-    if (samples_a_period*vibrations > sample_numbers(size(sample_numbers))) return
-    at = findloc(sample_numbers >= min(nint(wanted), sample_numbers(size(sample_numbers))), &
-      .true., dim=1)
+    if (samples_a_period*vibrations > most_samples) return
+    at = findloc(sample_numbers >= min(nint(wanted), most_samples), .true., dim=1)
   end function first_samples
 
   !> Vibrations a turn of the highest mode wanted.
@@ -98,29 +142,26 @@ contains
       count(square*far_above**2 > square(min(modes, size(square))))))
   end function slow_number
 
-  !> Finds or makes two levels, with their slow coordinates.
+  !> Finds or makes both levels of all refinements that are pending, with their slow coordinates.
   !!
-  !! Errors: the crank does not turn fully; own modes of a link could not be found.
-  subroutine need_two_levels(structure, request, order, samples, backwards, store, levels, number, &
-    error, slow)
+  !! Errors: as `need_level`, `need_basis`.
+  subroutine need_two_levels(structure, request, refinement, store, levels, error, slow)
     class(structure_t), intent(in) :: structure
     type(stability_request_t), intent(in) :: request !! modes, damping
-    integer, intent(in) :: order, samples            !! of the first level
-    logical, intent(in) :: backwards                 !! the crank turns clockwise
+    type(refinement_t), intent(inout) :: refinement(:)
     type(link_store_t), intent(inout) :: store       !! links decomposed earlier
     type(level_slot_t), allocatable, intent(inout) :: levels(:) !! made so far
-    integer, intent(out) :: number(2)                !! of both among them
     type(error_t), allocatable, intent(out) :: error
     integer, intent(in), optional :: slow            !! coordinates, as far as there are so many;
                                                      !! absent: `slow_number`
 
-    integer :: coordinates, i
+    integer :: coordinates, k
 
-    do i = 1, 2
-      call need_level(structure, order + (i - 1)*orders_above, (i + 1)*samples/2, backwards, &
-        store, levels, number(i), error)
-      if (allocated(error)) return
-      associate (level => levels(number(i))%level)
+    call need_levels(structure, refinement, store, levels, error)
+    if (allocated(error)) return
+    ! None is there that is not needed.
+    do k = 1, size(levels)
+      associate (level => levels(k)%level)
         coordinates = slow_number(level%grid, request%modes)
         if (present(slow)) coordinates = min(level%grid%unknowns, slow)
         call need_basis(coordinates, request%damping, level, error, .true.)

@@ -9,6 +9,7 @@ module response_levels
   use kinds, only: wp
   use link_degrees, only: link_degrees_t, uniform_degrees
   use link_store, only: link_store_t
+  use refinements, only: order_on, refinement_t, samples_on
   use response_types, only: damping_by_dampers, damping_ratio, damping_time, &
     link_damping_t
   use slow_motions, only: new_slow_basis, slow_basis_t
@@ -18,15 +19,11 @@ module response_levels
   implicit none (type, external)
   private
 
-  public :: level_t, level_slot_t, new_order_model, need_level, need_basis, damping_of, &
-    sample_numbers
+  public :: level_t, level_slot_t, new_order_model, need_levels, need_level, need_basis, damping_of
 
   !> Degrees along a link are lower than those across it by this, and at least as high as this. The
   !! bending of the links loads them along their axes: both converge together.
   integer, parameter :: along_below = 4, least_along = 4
-
-  !> Numbers of samples, products of small factors.
-  integer, parameter :: sample_numbers(*) = [64, 96, 128, 192, 256, 384, 512, 768, 1024, 1536, 2048]
 
   !> Samples from which the slow coordinates are found.
   integer, parameter :: basis_samples = 96
@@ -48,13 +45,61 @@ module response_levels
 
 contains
 
+  !> Finds or makes both levels of all refinements that are pending, and drops those that none of
+  !! these needs.
+  !!
+  !! Errors: as `need_level`.
+  subroutine need_levels(structure, refinement, store, levels, error)
+    class(structure_t), intent(in) :: structure      !! linkage and beams
+    type(refinement_t), intent(inout) :: refinement(:)
+    type(link_store_t), intent(inout) :: store       !! links decomposed earlier
+    type(level_slot_t), allocatable, intent(inout) :: levels(:) !! made so far
+    type(error_t), allocatable, intent(out) :: error !! why there are none
+
+    integer :: i, k
+
+    call drop_levels(refinement, levels)
+    do k = 1, size(refinement)
+      if (.not. refinement(k)%pending) cycle
+      do i = 1, 2
+        call need_level(structure, order_on(refinement(k), i), samples_on(refinement(k), i), &
+          refinement(k)%backwards, store, levels, refinement(k)%level(i), error)
+        if (allocated(error)) return
+      end do
+    end do
+  end subroutine need_levels
+
+  pure subroutine drop_levels(refinement, levels)
+    type(refinement_t), intent(in) :: refinement(:)
+    type(level_slot_t), allocatable, intent(inout) :: levels(:)
+
+    type(level_slot_t), allocatable :: kept(:)
+    logical :: needed(size(levels))
+    integer :: i, k
+
+    do k = 1, size(levels)
+      associate (level => levels(k)%level)
+        needed(k) = any([(any(refinement%pending .and. order_on(refinement, i) == level%order &
+          .and. samples_on(refinement, i) == level%grid%samples), i=1, 2)])
+      end associate
+    end do
+    allocate (kept(count(needed)))
+    i = 0
+    do k = 1, size(levels)
+      if (.not. needed(k)) cycle
+      i = i + 1
+      call move_alloc(levels(k)%level, kept(i)%level)
+    end do
+    call move_alloc(kept, levels)
+  end subroutine drop_levels
+
   !> Finds or makes a level.
   !!
   !! Errors: the crank does not turn fully; own modes of a link could not be found.
   subroutine need_level(structure, order, samples, backwards, store, levels, number, error)
     class(structure_t), intent(in) :: structure      !! linkage and beams
     integer, intent(in) :: order                     !! highest polynomial degree
-    integer, intent(in) :: samples                   !! one of `sample_numbers`
+    integer, intent(in) :: samples                   !! over the turn
     logical, intent(in) :: backwards                 !! the crank turns clockwise
     type(link_store_t), intent(inout) :: store       !! links decomposed earlier
     type(level_slot_t), allocatable, intent(inout) :: levels(:) !! made so far

@@ -1,6 +1,6 @@
 ! src/response/steady/ - the steady elastic response at constant speed of the crank.
 ! In: a structure, a `response_request_t`. Out: a `response_t` with estimated errors. Begin with
-! `find_steady_responses` in `steady_responses.f90`: two levels by `need_level` in
+! `find_steady_responses` in `steady_responses.f90`: two levels by `need_levels` in
 ! `response_levels.f90`, each solved by `solve_periodic` in `periodic_solver.f90`.
 ! Not here: the equation (`src/response/turn`), slow motions
 ! (`src/response/stability/slow_motions.f90`), motions that do not repeat

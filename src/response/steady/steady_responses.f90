@@ -14,7 +14,6 @@ module steady_responses
   use fourier_transform, only: close_fourier, coefficients_of, derivatives, fourier_plan_t, &
     open_fourier, resample, resampled, value_at, values_of
   use gauge_values, only: gauge_values_of
-  use interruption, only: was_interrupted
   use kinds, only: long, wp
   use link_loads, only: buckling_shares
   use link_store, only: link_store_t
@@ -23,8 +22,9 @@ module steady_responses
   use out_of_plane, only: find_out_of_plane_frequency
   use periodic_solver, only: solve_periodic
   use quadratic_change, only: find_quadratic_change
-  use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, &
-    sample_numbers
+  use refinements, only: add_work, begin_round, compare, most_samples, raise, refinement_limits_t, &
+    refinement_t, repeat_round, sample_numbers, samples_on
+  use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, need_levels
   use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_of_gauge, first_of_point, first_of_torque, place_series, &
     find_values_on_pieces, response_series_of, series_count, strains_along
@@ -40,9 +40,6 @@ module steady_responses
 
   public :: find_steady_responses
 
-  !> Orders of the second solution above those of the first.
-  integer, parameter :: orders_above = 2
-
   !> The second solution lacks at most so many times its last change; and in a quantity of its own
   !! so many times what it lacks in all.
   real(wp), parameter :: many = 10.0_wp
@@ -50,8 +47,10 @@ module steady_responses
   !> Remainders above this are none of rounding.
   real(wp), parameter :: unfinished = 1.0e-9_wp
 
-  !> Limits of orders and samples, and of the times they are raised.
-  integer, parameter :: most_order = 36, most_rounds = 8
+  !> Where errors may be those of rounding, the second time that they do not fall the best result so
+  !! far is the last word. The work at a speed takes some twenty seconds.
+  type(refinement_limits_t), parameter :: limits = refinement_limits_t(order=34, rounds=8, &
+    work=40000000_long, gain=0.5_wp, idle=2, rounding=1.0e-6_wp)
 
   !> Samples of the second solution in a period of the slowest modes, at their mean frequency, up to
   !! a limit: their harmonics may rise again beyond those that have fallen.
@@ -90,15 +89,6 @@ module steady_responses
   !> Iterations have stagnated if they stop above their tolerance and this, which rounding does not
   !! reach. The residual says little of quantities of high harmonics or of stiff links.
   real(wp), parameter :: stuck = 1.0e-11_wp
-
-  !> Errors are to fall by this each time that orders or samples are raised. The second time that
-  !! they do not, where they may be those of rounding, the best result so far is the last word.
-  real(wp), parameter :: least_gain = 0.5_wp, may_be_rounding = 1.0e-6_wp
-  integer, parameter :: most_idle = 2
-
-  !> It is, too, when so much work is done at a speed, some twenty seconds: samples × unknowns ×
-  !! applications of the equation, and samples × slow coordinates³.
-  integer(long), parameter :: most_work = 40000000_long
 
   !> Slow motions that grow too much are believed with so many times raised samples.
   integer, parameter :: enough_rounds = 3
@@ -140,22 +130,13 @@ module steady_responses
   !> Changes of quadratic terms count at least this share of the largest of any link.
   real(wp), parameter :: share_of_all = 0.1_wp
 
-  !> Orders and samples of a speed, and its levels.
+  !> What else is chosen at a speed.
   type :: choice_t
-    integer :: order = 0
-    integer :: at = 0             !! of `sample_numbers`
-    integer :: least_above = 0    !! samples of the second solution, at least
-    integer :: level(2) = 0       !! numbers of the levels of both solutions
-    integer :: slow = 0           !! slow coordinates
-    logical :: backwards = .false. !! the crank turns clockwise
-    logical :: more_slow = .false. !! slow coordinates as `least_a_period` has them
+    integer :: slow = 0            !! slow coordinates
+    logical :: more_slow = .false. !! as many as `least_a_period` has them
+    logical :: tightened = .false. !! iterations go on to smaller remainders
+    logical :: raised_order = .false.           !! last time
     type(speed_response_t), allocatable :: best !! result with the smallest error so far
-    integer :: idle = 0           !! times that raising has gained little, one after another
-    integer(long) :: work = 0_long !! so far, in the units of `most_work`
-    logical :: raised_order = .false. !! last time
-    integer :: round = 0              !! times raised
-    logical :: tightened = .false.    !! iterations go on to smaller remainders
-    logical :: pending = .true.
   end type choice_t
 
   !> One solution at a speed.
@@ -182,44 +163,43 @@ contains
     type(error_t), allocatable, intent(out) :: error  !! why there is no response at any speed
 
     type(level_slot_t), allocatable :: levels(:)
+    type(refinement_t) :: refinement(size(request%speed))
     type(choice_t) :: choice(size(request%speed))
     real(wp), allocatable :: squares(:)
-    integer, allocatable :: pending(:)
-    integer :: first, free, i, k, n
+    integer :: first, free, k
+    logical :: begun
 
-    n = size(request%speed)
-    allocate (response%at_speed(n))
-    choice%backwards = request%speed < 0.0_wp
-    choice%order = first_order(request%accuracy)
-    allocate (levels(0))
-    call need_level(structure, choice(1)%order, sample_numbers(1), .false., store, levels, first, &
-      error)
+    allocate (response%at_speed(size(choice)), levels(0))
+    refinement%limits = limits
+    refinement%backwards = request%speed < 0.0_wp
+    refinement%order = first_order(request%accuracy)
+    call need_level(structure, refinement(1)%order, sample_numbers(1), .false., store, levels, &
+      first, error)
     if (allocated(error)) return
     squares = own_squares(levels(first)%level%grid)
     squares = squares(ascending_order(-squares))
-    choice%at = first_samples(request%speed*sqrt(squares(1)), min(request%accuracy, coarsest))
-    ! Without damping, passages through resonance leave free vibrations of several modes behind.
+    refinement%samples = first_samples(request%speed*sqrt(squares(1)), min(request%accuracy, &
+      coarsest))
+    ! Without damping, passages through resonance leave free vibrations of several modes behind: the
+    ! second solution is to see those that the first cannot.
     free = min(merge(1, 3, any(request%damping%kind /= no_damping)), size(squares))
-    choice%least_above = nint(min(samples_of_free/max(abs(request%speed)*sqrt(squares(free)), &
-      tiny(1.0_wp)), most_of_free))
-    do
-      call drop_levels(choice, levels)
-      pending = pack([(k, k=1, n)], choice%pending)
-      if (size(pending) == 0) exit
-      do i = 1, size(pending)
-        call find_levels(structure, request, abs(request%speed(pending(i))), store, levels, &
-          choice(pending(i)), error)
+    refinement%least_above = samples_of(samples_of_free/max(abs(request%speed)*sqrt( &
+      squares(free)), tiny(1.0_wp)), most_of_free)
+    do while (any(refinement%pending))
+      call need_levels(structure, refinement, store, levels, error)
+      if (allocated(error)) return
+      do k = 1, size(choice)
+        if (refinement(k)%pending) call find_bases(request, abs(request%speed(k)), refinement(k), &
+          levels, choice(k), error)
         if (allocated(error)) return
       end do
-      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
-      do i = 1, size(pending)
-        ! An interrupted run leaves no results.
-        choice(pending(i))%pending = .not. was_interrupted()
-        if (.not. choice(pending(i))%pending) cycle
-        associate (here => choice(pending(i)))
-          call solve_speed(structure, request, abs(request%speed(pending(i))), &
-            levels(here%level(1))%level, levels(here%level(2))%level, here, &
-            response%at_speed(pending(i)))
+      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k, begun)
+      do k = 1, size(choice)
+        associate (here => refinement(k))
+          call begin_round(here, begun)
+          if (begun) call solve_speed(structure, request, abs(request%speed(k)), &
+            levels(here%level(1))%level, levels(here%level(2))%level, here, choice(k), &
+            response%at_speed(k))
         end associate
       end do
       !$omp end parallel do
@@ -246,71 +226,26 @@ contains
     end do
   end subroutine add_out_of_plane
 
-  !> Finds or makes the two levels of a speed, with the slow coordinates that it needs.
-  subroutine find_levels(structure, request, speed, store, levels, choice, error)
-    class(structure_t), intent(in) :: structure
+  !> Makes the slow coordinates of a speed, the same number for both solutions.
+  subroutine find_bases(request, speed, refinement, levels, choice, error)
     type(response_request_t), intent(in) :: request
     real(wp), intent(in) :: speed
-    type(link_store_t), intent(inout) :: store
-    type(level_slot_t), allocatable, intent(inout) :: levels(:) !! made so far
+    type(refinement_t), intent(in) :: refinement   !! with its levels
+    type(level_slot_t), intent(inout) :: levels(:)
     type(choice_t), intent(inout) :: choice
     type(error_t), allocatable, intent(out) :: error
 
-    integer :: i, order, samples
+    integer :: i
 
+    associate (samples => refinement%samples, above => samples_on(refinement, 2))
+      choice%slow = slow_count(levels(refinement%level(1))%level%coarse, speed* &
+        merge(min(above, 2*samples)/least_a_period, samples/samples_a_period, choice%more_slow))
+    end associate
     do i = 1, 2
-      order = choice%order + (i - 1)*orders_above
-      samples = merge(sample_numbers(choice%at), samples_above(choice), i == 1)
-      call need_level(structure, order, samples, choice%backwards, store, levels, &
-        choice%level(i), error)
+      call need_basis(choice%slow, request%damping, levels(refinement%level(i))%level, error)
       if (allocated(error)) return
     end do
-    ! Both solutions have the same slow coordinates.
-    choice%slow = slow_count(levels(choice%level(1))%level%coarse, abs(speed)* &
-      merge(min(samples, 2*sample_numbers(choice%at))/least_a_period, sample_numbers(choice%at)/ &
-      samples_a_period, choice%more_slow))
-    do i = 1, 2
-      call need_basis(choice%slow, request%damping, levels(choice%level(i))%level, error)
-      if (allocated(error)) return
-    end do
-  end subroutine find_levels
-
-  !> Samples of the second solution: half as many more (with a third more, errors were seen that
-  !! both have in common), and enough to see free vibrations that the first cannot.
-  elemental function samples_above(choice) result(samples)
-    type(choice_t), intent(in) :: choice
-    integer :: samples
-
-    samples = max(3*sample_numbers(choice%at)/2, &
-      sample_numbers(findloc(sample_numbers >= choice%least_above, .true., dim=1)))
-  end function samples_above
-
-  !> Drops the levels that no speed needs any more.
-  pure subroutine drop_levels(choices, levels)
-    type(choice_t), intent(in) :: choices(:) !! of all speeds
-    type(level_slot_t), allocatable, intent(inout) :: levels(:)
-
-    type(level_slot_t), allocatable :: kept(:)
-    logical :: needed(size(levels))
-    integer :: i, k
-
-    do i = 1, size(levels)
-      associate (level => levels(i)%level)
-        needed(i) = any(choices%pending .and. ((choices%order == level%order .and. &
-          sample_numbers(choices%at) == level%grid%samples) .or. &
-          (choices%order + orders_above == level%order .and. &
-          samples_above(choices) == level%grid%samples)))
-      end associate
-    end do
-    allocate (kept(count(needed)))
-    k = 0
-    do i = 1, size(levels)
-      if (.not. needed(i)) cycle
-      k = k + 1
-      call move_alloc(levels(i)%level, kept(k)%level)
-    end do
-    call move_alloc(kept, levels)
-  end subroutine drop_levels
+  end subroutine find_bases
 
   !> Polynomial degree to begin with.
   pure function first_order(accuracy) result(order)
@@ -322,26 +257,33 @@ contains
 
   !> Samples to begin with, from the number of vibrations of the slowest mode in a turn: what was
   !! found sufficient for machines of many kinds.
-  elemental function first_samples(share, accuracy) result(at)
+  elemental function first_samples(share, accuracy) result(samples)
     real(wp), intent(in) :: share    !! speed / frequency of that mode
     real(wp), intent(in) :: accuracy
-    integer :: at                    !! of `sample_numbers`
+    integer :: samples
 
     real(wp) :: wanted
 
     wanted = 120.0_wp + 13.0_wp*(1.0_wp/max(abs(share), 1.0e-3_wp))**0.8_wp
-    wanted = wanted*(0.1_wp - 0.15_wp*log10(accuracy))
-    at = findloc(sample_numbers >= min(nint(wanted), sample_numbers(size(sample_numbers))), &
-      .true., dim=1)
+    samples = samples_of(wanted*(0.1_wp - 0.15_wp*log10(accuracy)), real(most_samples, wp))
   end function first_samples
+
+  !> The least number of samples of those that there are.
+  elemental function samples_of(wanted, most) result(samples)
+    real(wp), intent(in) :: wanted, most !! the smaller of them
+    integer :: samples
+
+    samples = sample_numbers(findloc(sample_numbers >= nint(min(wanted, most)), .true., dim=1))
+  end function samples_of
 
   !> Solves one speed on both levels: its result, and its next choice of orders and samples if it
   !! is not accurate enough.
-  subroutine solve_speed(structure, request, speed, level, above, choice, found)
+  subroutine solve_speed(structure, request, speed, level, above, refinement, choice, found)
     class(structure_t), intent(in) :: structure
     type(response_request_t), intent(in) :: request
     real(wp), intent(in) :: speed
     type(level_t), intent(in) :: level, above
+    type(refinement_t), intent(inout) :: refinement
     type(choice_t), intent(inout) :: choice
     type(speed_response_t), intent(inout) :: found
 
@@ -358,7 +300,6 @@ contains
     call clear(found)
     call open_fourier(level%grid%samples, plan)
     call open_fourier(above%grid%samples, above_plan)
-    choice%pending = .false.
     attempt: block
       associate (basis => level%basis(choice%slow), above_basis => above%basis(choice%slow))
         call new_slow_motion(plan, basis, speed, stages, motion, found%error)
@@ -383,7 +324,7 @@ contains
         more_slow = is_stuck(better, compared_to)
         if (more_slow) exit attempt
       end associate
-      found%order = choice%order
+      found%order = refinement%order
       found%samples = level%grid%samples
       found%slow = choice%slow
       call look_at_multipliers(request, speed, level, plan, level%basis(choice%slow), motion, &
@@ -395,23 +336,23 @@ contains
       if (request%validity .and. structure%elastic%in_closed_form) call find_changes
     end block attempt
     found%applications = before + solution%applications + better%applications
-    choice%work = choice%work + work_of(level%grid, solution%applications + 2*looking) + &
-      work_of(above%grid, better%applications)
+    call add_work(refinement, level%grid, solution%applications + 2*looking, choice%slow)
+    call add_work(refinement, above%grid, better%applications, choice%slow)
     call close_fourier(above_plan)
     call close_fourier(plan)
     if (more_slow) then
       choice%more_slow = .true.
-      choice%pending = .true.
+      call repeat_round(refinement)
       ! The last word if there is no time for it.
       if (.not. allocated(found%error)) call set_error(found%error, error_of_numerics, &
         "the iterations for the periodic motion do not get on")
     else if (allocated(found%error)) then
-      if (.not. motion%grows .or. choice%round < enough_rounds) call raise_samples(choice)
+      if (.not. motion%grows .or. refinement%round < enough_rounds) call raise(refinement, 0, &
+        refinement%samples + 1)
     else if (found%largest_error > request%accuracy) then
       call improve
     end if
-    if (choice%work > most_work) choice%pending = .false.
-    if (.not. choice%pending) call settle(request%accuracy, choice, found)
+    if (.not. refinement%pending) call settle(request%accuracy, choice, found)
 
   contains
 
@@ -453,16 +394,6 @@ contains
       end if
     end subroutine find_changes
 
-    !> Work on a grid: a slow motion and applications of the equation.
-    pure function work_of(grid, applications) result(work)
-      type(turn_grid_t), intent(in) :: grid
-      integer, intent(in) :: applications
-      integer(long) :: work
-
-      work = int(grid%samples, long)*(int(applications, long)*grid%unknowns + &
-        int(choice%slow, long)**3)
-    end function work_of
-
     !> What remains of the iterations is to be below this.
     pure function tolerance_of(share) result(tolerance)
       real(wp), intent(in) :: share !! of the accuracy
@@ -483,19 +414,15 @@ contains
 
     !> The next choice after a result that is not accurate enough.
     subroutine improve
-      real(wp) :: smallest
-      logical :: gained
+      logical :: is_best
 
-      smallest = huge(1.0_wp)
-      if (allocated(choice%best)) smallest = choice%best%largest_error
-      gained = found%largest_error <= least_gain*smallest
-      choice%idle = merge(0, choice%idle + 1, gained .or. found%largest_error > may_be_rounding)
-      if (found%largest_error < smallest) choice%best = found
-      if (choice%idle >= most_idle) return
+      call compare(refinement, found%largest_error, is_best)
+      if (is_best) choice%best = found
+      if (refinement%idle >= limits%idle) return
       if (max(solution%remainder, many*better%remainder) > 0.5_wp*request%accuracy) then
         ! Either rounding leaves no more digits, or harmonics left out hinder the iterations.
         if (better%remainder > unfinished .or. found%largest_error > of_orders) &
-          call raise_samples(choice)
+          call raise(refinement, 0, refinement%samples + 1)
       else if (rounding/found%distance > request%accuracy) then
         if (allocated(choice%best)) deallocate (choice%best)
         call set_error(found%error, error_of_numerics, "resonance: an exponent of the turn, "// &
@@ -504,10 +431,10 @@ contains
         of_iterations)) then
         ! The same once more, as a quantity that is nearly nothing beside the motion needs it.
         choice%tightened = .true.
-        choice%pending = .true.
+        call repeat_round(refinement)
       else
-        call raise(request%accuracy, found%largest_error, gained, errors, solution%series, &
-          with_kinks(request, level%grid), choice)
+        call raise_either(request%accuracy, found%largest_error, errors, solution%series, &
+          with_kinks(request, level%grid), refinement, choice)
       end if
     end subroutine improve
 
@@ -540,23 +467,14 @@ contains
       "; the nearest exponent of the turn is "//trim(in_words(found%nearest)))
   end subroutine settle
 
-  !> Raises the samples, up to their limit.
-  pure subroutine raise_samples(choice)
-    type(choice_t), intent(inout) :: choice
-
-    choice%round = choice%round + 1
-    choice%pending = choice%at < size(sample_numbers) .and. choice%round <= most_rounds
-    if (choice%pending) choice%at = choice%at + 1
-  end subroutine raise_samples
-
   !> Raises the samples if the errors of the series that are not accurate enough come from harmonics
   !! left out, else the orders.
-  pure subroutine raise(accuracy, largest_error, gained, errors, series, kinks, choice)
+  pure subroutine raise_either(accuracy, largest_error, errors, series, kinks, refinement, choice)
     real(wp), intent(in) :: accuracy, largest_error
-    logical, intent(in) :: gained        !! much by what was raised before
     real(wp), intent(in) :: errors(:)    !! (series)
     real(wp), intent(in) :: series(:, :) !! coefficients
     logical, intent(in) :: kinks(:)      !! (series) that tell nothing by their harmonics
+    type(refinement_t), intent(inout) :: refinement
     type(choice_t), intent(inout) :: choice
 
     real(wp) :: tail(2), last, largest, fall, wanted
@@ -582,28 +500,16 @@ contains
       next = max(next, nint(min(wanted, real(2*n, wp))))
     end do
     order = order .or. next == n
-    choice%round = choice%round + 1
-    if (choice%round > most_rounds) return
-    choice%pending = .true.
     ! Higher orders that gain nothing show that the iterations or harmonics are to blame.
-    if (choice%raised_order .and. .not. gained) then
+    if (choice%raised_order .and. .not. refinement%gained) then
       order = .false.
       choice%tightened = .true.
       next = max(next, n + 1)
     end if
     choice%raised_order = order
-    if (next > n) then
-      if (choice%at == size(sample_numbers)) choice%pending = .false.
-      next = min(next, sample_numbers(size(sample_numbers)))
-      choice%at = min(size(sample_numbers), max(choice%at + 1, &
-        findloc(sample_numbers >= next, .true., dim=1)))
-    end if
-    if (order) then
-      if (choice%order + orders_above >= most_order) choice%pending = .false.
-      choice%order = min(most_order - orders_above, choice%order + orders_above*max(1, &
-        ceiling(log(largest_error/accuracy)/log(gain_of_orders))))
-    end if
-  end subroutine raise
+    call raise(refinement, merge(max(1, ceiling(log(largest_error/accuracy)/ &
+      log(gain_of_orders))), 0, order), next)
+  end subroutine raise_either
 
   !> Series at places that a block passes.
   pure function with_kinks(request, grid) result(kinks)

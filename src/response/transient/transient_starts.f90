@@ -13,7 +13,8 @@ module transient_starts
   use motion_matrices, only: find_motion_matrices, motion_matrices_t, stiffness_at
   use path_grids, only: place_grid
   use periodic_solver, only: solve_periodic
-  use response_levels, only: damping_of, level_slot_t, need_basis, need_level, sample_numbers
+  use refinements, only: sample_numbers
+  use response_levels, only: damping_of, level_slot_t, need_basis, need_level
   use response_series, only: place_series
   use slow_motions, only: new_slow_motion, slow_count, slow_motion_t
   use structures, only: structure_t
