@@ -21,6 +21,7 @@ module transient_responses
   use part_requests, only: join_largest, request_of_parts
   use path_grids, only: new_path_grid, place_grid
   use poses, only: find_pose, pose_t
+  use refinements, only: compare, raise, refinement_limits_t, refinement_t
   use response_levels, only: damping_of, new_order_model
   use response_peaks, only: sampled_deflections
   use response_types, only: strain_values
@@ -51,19 +52,16 @@ module transient_responses
   !> First steps: radians of the slowest vibration in one, at most.
   real(wp), parameter :: first_radians = 0.6_wp
 
-  !> Orders are raised by this each time, steps by half, so many times at most; errors are estimated
-  !! from so many solutions on.
-  integer, parameter :: orders_above = 2, most_rounds = 9, most_order = 34, least_rounds = 3
+  !> Orders are raised, and steps by half; where errors do not fall two times, one after another,
+  !! more of the same does not help. They are estimated from so many solutions on.
+  type(refinement_limits_t), parameter :: limits = refinement_limits_t(order=34, rounds=8, &
+    gain=0.8_wp, idle=2)
+  integer, parameter :: least_rounds = 3
 
   !> No solution is begun that takes more than this: steps × (unknowns × stages)³, about a minute;
   !! nor are steps raised for fast vibrations to more than the second. The terms of a step take at
   !! least the third.
   real(wp), parameter :: most_work = 1.0e11_wp, most_raised = 1.0e10_wp, of_terms = 4.0e6_wp
-
-  !> Errors are to fall by this from one solution to the next; where they do not so many times, one
-  !! after another, more of the same does not help.
-  real(wp), parameter :: least_gain = 0.8_wp
-  integer, parameter :: most_idle = 2
 
   !> A quantity smaller than this beside what goes with it is taken for zero by its nature.
   real(wp), parameter :: by_nature = 1.0e-3_wp
@@ -118,45 +116,44 @@ contains
     type(speed_transient_t), intent(inout) :: found
 
     type(deformation_model_t) :: model
+    type(refinement_t) :: refinement
     real(wp), allocatable :: older(:, :), before(:, :), series(:, :), missed(:)
-    real(wp) :: accuracy, last_error
-    integer :: round, idle, reached(2)
+    real(wp) :: accuracy
+    integer :: reached(2)
+    logical :: is_best
 
     call find_instants(request, law, found)
     if (.not. law%range%is_turn) call cover(structure, extremes_of(law, found%time), law%range)
     accuracy = request%response%accuracy
-    found%order = first_order(accuracy)
+    refinement = refinement_t(limits, first_order(accuracy))
     found%steps = 0
     reached = 0
-    idle = 0
-    last_error = huge(1.0_wp)
-    do round = 1, most_rounds
+    do
+      found%order = refinement%order
       call new_order_model(structure, found%order, store, model, found%error, law%range)
       if (allocated(found%error)) return
-      if (round == 1) found%steps = first_steps(structure, request, law, &
+      if (refinement%round == 0) found%steps = first_steps(structure, request, law, &
         found%crank(1), model)
       if (work_of(request, law, found, model, found%steps) > most_work .and. &
-        round > least_rounds) then
+        refinement%round >= least_rounds) then
         found%order = reached(1)
         found%steps = reached(2)
         exit
       end if
       call solve_once(structure, request, law, model, store, before, found, series, missed)
       if (allocated(found%error) .or. was_interrupted()) return
-      if (round >= least_rounds) then
+      if (refinement%round + 1 >= least_rounds) then
         call evaluate(structure, request, older, before, series, missed, found)
         if (found%largest_error <= accuracy) return
-        idle = merge(0, idle + 1, found%largest_error <= least_gain*last_error)
-        last_error = found%largest_error
-        if (idle >= most_idle) exit
+        call compare(refinement, found%largest_error, is_best)
       end if
-      if (round == most_rounds .or. found%order + orders_above > most_order) exit
+      call raise(refinement, 1, refinement%samples)
+      if (.not. refinement%pending) exit
       if (allocated(before)) call move_alloc(before, older)
       call move_alloc(series, before)
       reached = [found%order, found%steps]
-      found%order = found%order + orders_above
       ! The first two solutions, of low orders, tell how fast these converge.
-      if (round > 1) found%steps = (3*found%steps + 1)/2
+      if (refinement%round > 1) found%steps = (3*found%steps + 1)/2
     end do
     if (maxval([0.0_wp, found%displacement_error]) > accuracy) then
       call set_missed(maxval(found%displacement_error), "displacements", found%error)
