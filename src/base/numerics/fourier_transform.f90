@@ -231,17 +231,30 @@ contains
     real(wp), intent(in) :: theta              !! [rad]
     real(wp) :: value(size(coefficients, 2))
 
-    real(wp) :: wave(size(coefficients, 1))
-    integer :: j, n
+    !> Harmonics that are turned at once, each from that so many before, and terms that are summed
+    !! side by side: none waits for its neighbour.
+    integer, parameter :: together = 8
+    real(wp) :: wave(size(coefficients, 1) + 2*together), part(together)
+    complex(wp) :: turn(together), turned
+    integer :: i, j, n
 
     n = size(coefficients, 1)
+    turn = [(exp(cmplx(0.0_wp, j*modulo(theta, two_pi), wp)), j=1, together)]
+    turned = turn(together)
     wave(1) = 1.0_wp
-    do j = 1, (n - 1)/2
-      wave(2*j) = 2.0_wp*cos(modulo(j*theta, two_pi))
-      wave(2*j + 1) = -2.0_wp*sin(modulo(j*theta, two_pi))
+    do j = 2, n, 2*together
+      wave(j:j + 2*together - 2:2) = 2.0_wp*real(turn)
+      wave(j + 1:j + 2*together - 1:2) = -2.0_wp*aimag(turn)
+      turn = turn*turned
     end do
-    wave(n) = cos(modulo((n/2)*theta, two_pi))
-    value = matmul(wave, coefficients)
+    wave(n) = 0.5_wp*wave(n)
+    do i = 1, size(value)
+      part = 0.0_wp
+      do j = 1, n - together + 1, together
+        part = part + wave(j:j + together - 1)*coefficients(j:j + together - 1, i)
+      end do
+      value(i) = sum(part) + dot_product(wave(j:n), coefficients(j:n, i))
+    end do
   end function value_at
 
 end module fourier_transform

@@ -8,7 +8,7 @@ module response_peaks
     resampled, value_at, values_of
   use interruption, only: was_interrupted
   use kinds, only: wp
-  use link_rows, only: displacement_rows, strain_rows, strain_rows_t, sums_of_rows
+  use link_rows, only: displacement_rows, strain_rows, strain_rows_t
   use response_types, only: peak_t, response_request_t, speed_response_t
   use moving_pieces, only: last_end
   use turn_grids, only: moves, sense_of, turn_grid_t
@@ -107,10 +107,10 @@ contains
     logical, intent(in), optional :: only_strains  !! no deflections; absent: false
 
     type(fourier_plan_t) :: dense
-    real(wp), allocatable :: values(:, :), xi(:), coefficients(:, :), elongation(:, :), q(:, :), &
-      stretched(:, :)
-    real(wp) :: left(size(grid%integrals)), unsure
-    integer :: b, i, n
+    real(wp), allocatable :: values(:, :), xi(:), coefficients(:, :), q(:, :), rows(:, :, :), &
+      waves(:)
+    real(wp) :: left(size(grid%integrals)), unsure, at_rows, at_waves
+    integer :: b, n
 
     n = size(grid%integrals)
     left = 0.0_wp
@@ -121,52 +121,112 @@ contains
       associate (link => grid%model%links(b))
         if (.not. link%bends) cycle
         xi = places_along(link%bending_shapes%last/link%bending_shapes%elements)
-        allocate (coefficients(grid%samples, grid%integrals(b)%chord + grid%integrals(b)%own), &
-          elongation(grid%samples, 1))
-        call coefficients_of(plan, strained_functions(grid, b, y), coefficients)
-        call coefficients_of(plan, spread(elongation_of(grid, b, y), 2, 1), elongation)
-        allocate (q(dense%samples, size(coefficients, 2)), stretched(dense%samples, 1), &
-          values(dense%samples, size(xi)))
-        call values_of(dense, resampled(coefficients, dense%samples), q)
-        call values_of(dense, resampled(elongation, dense%samples), stretched)
-        do i = 1, size(xi)
-          values(:, i) = strains_at(q, stretched(:, 1), xi(i))
-        end do
+        allocate (coefficients(grid%samples, grid%integrals(b)%chord + grid%integrals(b)%own + 1))
+        allocate (q(dense%samples, size(coefficients, 2)))
+        call take(strained(y))
+        call look_along(.true.)
         unsure = of_rounding*maxval(values)
-        if (present(last_change)) unsure = max(unsure, many*maxval([(strains_at( &
-          strained_functions(grid, b, last_change), elongation_of(grid, b, last_change), &
-          quick_places(i)), i=1, size(quick_places))]))
+        if (present(last_change)) unsure = max(unsure, many*maxval(values_along(strained( &
+          last_change), quick_places, .true.)))
         call search(.true., found%largest_strain(b))
         call place_on_link(found%largest_strain(b))
         found%largest_stress(b) = found%largest_strain(b)
         found%largest_stress(b)%value = request%section(b)%modulus*found%largest_strain(b)%value
         if (.not. present(only_strains)) call look_at_deflections
-        deallocate (values, coefficients, elongation, q, stretched)
+        deallocate (values, coefficients, q)
       end associate
     end do
     call close_fourier(dense)
 
   contains
 
+    !> Amplitudes for the strains of a link, and behind them its elongation.
+    function strained(y) result(amplitudes)
+      real(wp), intent(in) :: y(:, :) !! (samples, unknowns)
+      real(wp) :: amplitudes(size(y, 1), size(coefficients, 2))
+
+      amplitudes(:, :size(amplitudes, 2) - 1) = strained_functions(grid, b, y)
+      amplitudes(:, size(amplitudes, 2)) = elongation_of(grid, b, y)
+    end function strained
+
+    !> Amplitudes at many crank angles.
+    subroutine take(amplitudes)
+      real(wp), intent(in) :: amplitudes(:, :) !! (samples, functions)
+
+      call coefficients_of(plan, amplitudes, coefficients(:, :size(amplitudes, 2)))
+      call values_of(dense, resampled(coefficients, dense%samples), q)
+    end subroutine take
+
+    !> Values at all places.
+    subroutine look_along(of_strain)
+      logical, intent(in) :: of_strain
+
+      values = values_along(q, xi, of_strain)
+      at_waves = huge(at_waves)
+      at_rows = huge(at_rows)
+    end subroutine look_along
+
+    !> Strain of the outermost fibre at some places, or squared deflection.
+    function values_along(amplitudes, places, of_strain) result(along)
+      real(wp), intent(in) :: amplitudes(:, :) !! (samples, functions)
+      real(wp), intent(in) :: places(:)
+      logical, intent(in) :: of_strain
+      real(wp) :: along(size(amplitudes, 1), size(places))
+
+      real(wp) :: part(size(along, 1), size(along, 2), 2)
+      integer, allocatable :: used(:)
+      integer :: i, k
+
+      if (allocated(rows)) deallocate (rows)
+      allocate (rows(size(amplitudes, 2), 2, size(places)))
+      do i = 1, size(places)
+        rows(:, :, i) = rows_at(places(i), of_strain)
+      end do
+      do k = 1, 2
+        used = pack([(i, i=1, size(rows, 1))], any(abs(rows(:, k, :)) > 0.0_wp, dim=2))
+        part(:, :, k) = matmul(amplitudes(:, used), rows(used, k, :))
+      end do
+      along = joined(part(:, :, 1), part(:, :, 2), of_strain)
+    end function values_along
+
+    !> What amplitudes count at a place for the strain of the axis and that by bending, or for the
+    !! displacements along the link and across it.
+    function rows_at(place, of_strain) result(at)
+      real(wp), intent(in) :: place
+      logical, intent(in) :: of_strain
+      real(wp) :: at(size(coefficients, 2), 2)
+
+      type(strain_rows_t) :: strain
+      integer :: chord, last
+
+      at = 0.0_wp
+      last = size(at, 1)
+      associate (link => grid%model%links(b))
+        if (of_strain) then
+          chord = grid%integrals(b)%chord
+          strain = strain_rows(link, place)
+          at(last, 1) = strain%elongation
+          at(chord + 1:last - 1, 1) = strain%axial
+          at(3:chord - 2, 2) = request%section(b)%outer*strain%curvature(:0)
+          at(chord + 1:last - 1, 2) = request%section(b)%outer*strain%curvature(1:)
+        else
+          associate (displacement => displacement_rows(link, [place*link%length, 0.0_wp]))
+            at(:last - 1, :) = transpose(displacement(:2, :))
+          end associate
+        end if
+      end associate
+    end function rows_at
+
     !> The largest deflection of a link.
     subroutine look_at_deflections
-      associate (link => grid%model%links(b))
-        if (moves(grid, b)) then
-          call coefficients_of(plan, functions_of(grid, b, y), coefficients)
-          call values_of(dense, resampled(coefficients, dense%samples), q)
-        end if
-        do i = 1, size(xi)
-          associate (rows => displacement_rows(link, [xi(i)*link%length, 0.0_wp]))
-            values(:, i) = sum(matmul(q, transpose(rows(:2, :)))**2, dim=2)
-          end associate
-        end do
-        associate (largest => sqrt(maxval(values)))
-          unsure = largest*max(of_rounding*largest, 2.0_wp*left(b))
-        end associate
-        call search(.false., found%largest_deflection(b))
-        found%largest_deflection(b)%value = sqrt(found%largest_deflection(b)%value)
-        call place_on_link(found%largest_deflection(b))
+      if (moves(grid, b)) call take(functions_of(grid, b, y))
+      call look_along(.false.)
+      associate (largest => sqrt(maxval(values)))
+        unsure = largest*max(of_rounding*largest, 2.0_wp*left(b))
       end associate
+      call search(.false., found%largest_deflection(b))
+      found%largest_deflection(b)%value = sqrt(found%largest_deflection(b)%value)
+      call place_on_link(found%largest_deflection(b))
     end subroutine look_at_deflections
 
     !> The share of the way along a link or, with a block on it, along both of its pieces.
@@ -185,22 +245,6 @@ contains
         peak%share = 1.0_wp - (1.0_wp - peak%xi)*here(1)
       end if
     end subroutine place_on_link
-
-    !> Strain of the outermost fibre over the turn.
-    function strains_at(q, stretched, place) result(strain)
-      real(wp), intent(in) :: q(:, :)      !! (samples, functions) strained ones
-      real(wp), intent(in) :: stretched(:) !! (samples) elongation
-      real(wp), intent(in) :: place
-      real(wp) :: strain(size(q, 1))
-
-      type(strain_rows_t) :: rows
-      integer :: chord
-
-      rows = strain_rows(grid%model%links(b), place)
-      chord = grid%integrals(b)%chord
-      strain = abs(stretched*rows%elongation + matmul(q(:, chord + 1:), rows%axial)) + &
-        request%section(b)%outer*abs(sums_of_rows(q, chord, rows%curvature))
-    end function strains_at
 
     !> The largest value: of all sampled maxima in a piece that may hide it, the largest between
     !! samples.
@@ -294,7 +338,7 @@ contains
           end select
           if (all(abs(step) <= 0.0_wp)) cycle
           middle = best
-          f(2) = value_at_place(of_strain, middle(1), middle(2))
+          f(2) = peak%value
           call try_place(middle - step, ends, of_strain, best, peak%value, f(1))
           call try_place(middle + step, ends, of_strain, best, peak%value, f(3))
           bend = f(1) + f(3) - 2.0_wp*f(2)
@@ -325,32 +369,37 @@ contains
       best = at
     end subroutine try_place
 
-    !> Strain of the outermost fibre, or squared deflection.
+    !> Strain of the outermost fibre, or squared deflection. Of two tries in a row one changes the
+    !! crank angle or the place alone.
     function value_at_place(of_strain, theta, place) result(value)
       logical, intent(in) :: of_strain
       real(wp), intent(in) :: theta, place
       real(wp) :: value
 
-      type(strain_rows_t) :: rows
-      real(wp) :: here(size(coefficients, 2)), drawn(1)
-      integer :: chord
+      real(wp) :: parts(2)
 
-      here = value_at(coefficients, theta)
-      chord = grid%integrals(b)%chord
-      if (of_strain) then
-        rows = strain_rows(grid%model%links(b), place)
-        drawn = value_at(elongation, theta)
-        value = abs(drawn(1)*rows%elongation + dot_product(here(chord + 1:), rows%axial)) + &
-          request%section(b)%outer*abs(dot_product(here(chord + 1:), rows%curvature(1:)) + &
-          dot_product(here(3:chord - 2), rows%curvature(:0)))
-      else
-        associate (displacement => displacement_rows(grid%model%links(b), &
-          [place*grid%model%links(b)%length, 0.0_wp]))
-          value = sum(matmul(displacement(:2, :), here)**2)
-        end associate
-      end if
+      if (abs(theta - at_waves) > 0.0_wp) waves = value_at(coefficients, theta)
+      if (abs(place - at_rows) > 0.0_wp) rows(:, :, 1) = rows_at(place, of_strain)
+      at_waves = theta
+      at_rows = place
+      parts = matmul(waves, rows(:, :, 1))
+      value = joined(parts(1), parts(2), of_strain)
     end function value_at_place
 
   end subroutine find_peaks
+
+  !> Strain of the outermost fibre from those of the axis and of bending, or squared deflection from
+  !! displacements along the link and across it.
+  elemental function joined(along, across, of_strain) result(value)
+    real(wp), intent(in) :: along, across
+    logical, intent(in) :: of_strain
+    real(wp) :: value
+
+    if (of_strain) then
+      value = abs(along) + abs(across)
+    else
+      value = along**2 + across**2
+    end if
+  end function joined
 
 end module response_peaks
