@@ -73,9 +73,9 @@ contains
 
     real(wp), dimension(size(mass, 1), 2*size(mass, 1)) :: second
     real(wp) :: product(3*size(mass, 1), 3*size(mass, 1))
-    real(wp) :: e(3*size(mass, 1), 2*size(mass, 1)), added(2*size(mass, 1), 2*size(mass, 1))
+    real(wp) :: of_rest(3*size(mass, 1), 2*size(mass, 1)), added(2*size(mass, 1), 2*size(mass, 1))
     real(wp) :: factor(size(mass, 1), size(mass, 1))
-    integer :: pivot(size(mass, 1)), i, m, info
+    integer :: pivot(size(mass, 1)), m, info
 
     m = size(mass, 1)
     ! −z'' = M⁻¹ ((2G + C) z' + (G' − V) z)
@@ -84,14 +84,9 @@ contains
     second(:, m + 1:) = slope - v
     call dgetrf(m, m, factor, m, pivot, info)
     call dgetrs("N", m, 2*m, factor, m, pivot, second, m, info)
-    e = 0.0_wp
-    e(:m, :) = -second
-    do i = 1, m
-      e(m + i, i) = 1.0_wp
-      e(2*m + i, m + i) = 1.0_wp
-    end do
     product = summed(products, m, [0.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp/speed**2])
-    added = speed**2*matmul(transpose(e), matmul(product, e))
+    of_rest = product(:, m + 1:) - matmul(product(:, :m), second)
+    added = speed**2*(of_rest(m + 1:, :) - matmul(transpose(second), of_rest(:m, :)))
     mass = mass + added(:m, :m)
     g = g + added(:m, m + 1:)
     v = v + added(m + 1:, m + 1:)

@@ -7,6 +7,10 @@
 !! At a speed the equation `(M z' + G z)' = (Gᵀ − C/ω) z' + (W − K/ω²) z + F/ω²` is solved by
 !! Gauss collocation, step after step, and closed to a periodic motion. It serves as an approximate
 !! inverse of the whole equation, and gives the multipliers of a turn.
+!!
+!! With s stages z is a polynomial of degree s in a step, and collocation is Galerkin's method with
+!! such polynomials and Gauss's rule, which is exact to degree 2s − 1. So a step is a finite element
+!! whose inner amplitudes are eliminated: by one fewer a coordinate than a step has stages.
 module slow_motions
   use constants, only: two_pi
   use elastic_equations, only: deformations_of, functions_of, mass_force, slopes_of, &
@@ -17,7 +21,8 @@ module slow_motions
     open_fourier, resample, resampled, shifted, values_of
   use gauss_collocation, only: collocation_t, new_collocation
   use kinds, only: wp
-  use lapack, only: dgeev, dgetf2, dgetrf, dgetrs
+  use lapack, only: dgeev, dgetrf, dgetrs
+  use legendre, only: legendre_values
   use load_cases, only: constant_case
   use piece_motions, only: add_convection, scale_share
   use row_products, only: add_products, multiply_by, products_of_rows
@@ -82,8 +87,10 @@ module slow_motions
     real(wp) :: scale = 1.0_wp                 !! of momenta
     real(wp), allocatable :: transfer(:, :, :) !! (2 number, 2 number, steps) of coordinates and
                                                !! momenta over a step
-    real(wp), allocatable :: response(:, :, :) !! (2 number, number × stages, steps) to loads at the
-                                               !! stages
+    real(wp), allocatable :: inner(:, :, :)    !! (2 number, number × (stages − 1), steps) share of
+                                               !! forces on inner amplitudes in those on both ends
+    real(wp), allocatable :: share(:, :)       !! (stages, stages + 1) of loads at the stages in
+                                               !! forces on inner amplitudes and on both ends
     real(wp), allocatable :: monodromy(:, :)   !! (2 number, 2 number) over the turn
     logical :: grows = .false.                 !! too much in a turn
     real(wp), allocatable :: factor(:, :)      !! of `1 − monodromy`
@@ -587,27 +594,15 @@ contains
     type(slow_motion_t), intent(out) :: motion
     type(error_t), allocatable, intent(out) :: error !! why it cannot be closed
 
-    real(wp), allocatable :: at_stage(:, :, :, :), total(:, :, :), values(:, :)
-    integer :: i, k, m, n, c, info
+    integer :: i, k, m, n, info
 
     n = plan%samples
     m = basis%number
     motion%number = m
     motion%steps = n
     motion%rule = new_collocation(stages)
-    call matrices_at_speed(basis, speed, n, total)
-    allocate (at_stage(m**2, 4, stages, n), values(n, m**2))
-    do i = 1, stages
-      do c = 1, 4
-        call values_of(plan, shifted(total(:, :, c), motion%rule%node(i)*two_pi/n), values)
-        at_stage(:, c, i, :) = transpose(values)
-      end do
-    end do
-    motion%scale = sqrt(sum(abs(total(1, 1::m + 1, 1)))/m)/abs(speed)
-    allocate (motion%transfer(2*m, 2*m, n), motion%response(2*m, m*stages, n))
-    do k = 1, n
-      call make_step(motion, k, at_stage(:, :, :, k))
-    end do
+    allocate (motion%transfer(2*m, 2*m, n), motion%inner(2*m, m*(stages - 1), n))
+    call make_steps(basis, speed, motion)
     motion%monodromy = motion%transfer(:, :, 1)
     do k = 2, n
       motion%monodromy = matmul(motion%transfer(:, :, k), motion%monodromy)
@@ -628,6 +623,120 @@ contains
     if (info /= 0) call set_error(error, error_of_numerics, &
       "resonance: the slow motion has a multiplier of 1")
   end subroutine new_slow_motion
+
+  !> All steps. Their matrices are functions of the crank angle, too: those of steps that are evenly
+  !! spaced come from short transforms.
+  subroutine make_steps(basis, speed, motion)
+    type(slow_basis_t), intent(in) :: basis
+    real(wp), intent(in) :: speed
+    type(slow_motion_t), intent(inout) :: motion !! with its rule
+
+    type(fourier_plan_t) :: plan
+    complex(wp), allocatable :: series(:, :, :, :), turned(:)
+    real(wp), allocatable :: coefficients(:, :), values(:, :), forms(:, :, :, :)
+    logical :: symmetric
+    integer :: apart, e, first, i, j, k, n, together, trials
+
+    trials = size(motion%rule%node) + 1
+    symmetric = .not. any(abs(basis%sums(:, :, of_rate)) > 0.0_wp)
+    call find_forms(basis, speed, symmetric, motion, series)
+    n = 2*ubound(series, 1)
+    apart = 1
+    do i = 2, motion%steps/n
+      if (modulo(motion%steps, 2*i) == 0) apart = i
+    end do
+    together = motion%steps/apart
+    allocate (coefficients(together, size(series, 2)), values(together, size(series, 2)), &
+      source=0.0_wp)
+    allocate (forms(size(series, 2), trials, trials, together))
+    call open_fourier(together, plan)
+    do first = 1, apart
+      turned = [(exp(cmplx(0.0_wp, two_pi*k*(first - 1)/motion%steps, wp)), k=0, n/2)]
+      do j = 1, trials
+        do i = 1, merge(j, trials, symmetric)
+          do e = 1, size(series, 2)
+            call take(turned*series(:, e, i, j), coefficients(:, e))
+          end do
+          call values_of(plan, coefficients, values)
+          forms(:, i, j, :) = transpose(values)
+        end do
+      end do
+      do k = 1, together
+        call make_step(motion, first + (k - 1)*apart, symmetric, trials, forms(:, :, :, k))
+      end do
+    end do
+    call close_fourier(plan)
+
+  contains
+
+    pure subroutine take(harmonic, coefficients)
+      complex(wp), intent(in) :: harmonic(0:)
+      real(wp), intent(inout) :: coefficients(:)
+
+      coefficients(1) = real(harmonic(0))
+      coefficients(2:n:2) = real(harmonic(1:))
+      coefficients(3:n - 1:2) = aimag(harmonic(1:n/2 - 1))
+      ! The highest harmonic is shared by +n/2 and −n/2.
+      if (together > n) coefficients(n:n + 1) = 0.5_wp*[real(harmonic(n/2)), aimag(harmonic(n/2))]
+    end subroutine take
+
+  end subroutine make_steps
+
+  !> Series of the matrices H of a step from any crank angle on, by pairs of trial functions of its
+  !! polynomials: with forces f, `Σ H_ij Z_j + f_i` is 0, the momentum at the end less its sign at the
+  !! start for the functions of the ends. Those of inner amplitudes are integrals of Legendre's
+  !! polynomials, behind them are those of the start and the end.
+  subroutine find_forms(basis, speed, symmetric, motion, series)
+    type(slow_basis_t), intent(in) :: basis
+    real(wp), intent(in) :: speed
+    logical, intent(in) :: symmetric             !! only H_ij with i ≤ j
+    type(slow_motion_t), intent(inout) :: motion !! gets shares of loads and the scale of momenta
+    complex(wp), allocatable, intent(out) :: series(:, :, :, :) !! (harmonics from 0, number², i, j)
+
+    real(wp), dimension(size(motion%rule%node), size(motion%rule%node) + 1) :: value, slope
+    real(wp) :: p(0:size(motion%rule%node)), h
+    real(wp), allocatable :: total(:, :, :)
+    !> M, G, Gᵀ − C, V; of the stages, and what pairs take of these matrices
+    complex(wp), allocatable :: matrix(:, :, :), wave(:, :), weight(:, :)
+    integer, allocatable :: turned(:)
+    integer :: e, i, j, k, m, n, s
+
+    m = basis%number
+    s = size(motion%rule%node)
+    n = min(size(basis%sums, 1), motion%steps)
+    h = two_pi/motion%steps
+    do i = 1, s
+      associate (x => motion%rule%node(i))
+        p = legendre_values(s, 2.0_wp*x - 1.0_wp)
+        value(i, :) = [((p(j + 1) - p(j - 1))/(4*j + 2), j=1, s - 1), 1.0_wp - x, x]
+        slope(i, :) = [(p(j), j=1, s - 1), -1.0_wp, 1.0_wp]/h
+      end associate
+    end do
+    motion%share = h*spread(motion%rule%weight, 2, s + 1)*value
+    call matrices_at_speed(basis, speed, n, total)
+    motion%scale = sqrt(sum(abs(total(1, 1::m + 1, 1)))/m)/abs(speed)
+    allocate (matrix(0:n/2, m**2, 4), series(0:n/2, m**2, s + 1, s + 1))
+    matrix(0, :, :) = total(1, :, :)
+    do k = 1, n/2 - 1
+      matrix(k, :, :) = cmplx(total(2*k, :, :), total(2*k + 1, :, :), wp)
+    end do
+    matrix(n/2, :, :) = total(n, :, :)
+    turned = [transpose(reshape([(e, e=1, m**2)], [m, m]))]
+    matrix = matrix(:, :, [1, 2, 4, 3])
+    matrix(:, :, 3) = matrix(:, turned, 2) - matrix(:, :, 3)
+    wave = reshape([((exp(cmplx(0.0_wp, k*h*motion%rule%node(i), wp)), k=0, n/2), i=1, s)], &
+      [n/2 + 1, s])
+    do j = 1, s + 1
+      do i = 1, merge(j, s + 1, symmetric)
+        weight = matmul(wave, h*spread(motion%rule%weight, 2, 4)*reshape([slope(:, i)*slope(:, j), &
+          slope(:, i)*value(:, j), value(:, i)*slope(:, j), value(:, i)*value(:, j)], [s, 4]))
+        do e = 1, m**2
+          series(:, e, i, j) = weight(:, 1)*matrix(:, e, 1) + weight(:, 2)*matrix(:, e, 2) + &
+            weight(:, 3)*matrix(:, e, 3) + weight(:, 4)*matrix(:, e, 4)
+        end do
+      end do
+    end do
+  end subroutine find_forms
 
   !> Coefficients of M, G, W − K/ω² − XᵀCX'/ω and XᵀCX/ω.
   subroutine matrices_at_speed(basis, speed, samples, total)
@@ -697,84 +806,95 @@ contains
       mass, stiffness)
   end subroutine frozen_matrices
 
-  !> One step: coordinates and momenta at its end from those at its start and the loads at its
-  !! stages. Unknowns of the stages are z': `A z' = B`, and what is wanted is `E z'`. There are
-  !! fewer rows in E than columns in B: `E A⁻¹` comes first.
-  subroutine make_step(motion, step, matrices)
+  !> One step: its inner amplitudes are eliminated, then it gives coordinates and momenta at its end
+  !! from those at its start.
+  pure subroutine make_step(motion, step, symmetric, trials, forms)
     type(slow_motion_t), intent(inout) :: motion
     integer, intent(in) :: step
-    !> (number, number, M, G, V, XᵀCX/ω; stages)
-    real(wp), intent(in) :: matrices(motion%number, motion%number, 4, size(motion%rule%node))
+    logical, intent(in) :: symmetric !! forms are there with i ≤ j
+    integer, intent(in) :: trials    !! trial functions
+    real(wp), intent(in) :: forms(motion%number, motion%number, trials, trials)
 
-    integer, parameter :: of_v = 3, of_damping = 4
-    real(wp) :: left(motion%number*size(matrices, 4), motion%number*size(matrices, 4))
-    real(wp) :: ends(motion%number*size(matrices, 4), 2*motion%number)
-    real(wp) :: rows(2*motion%number, motion%number*size(matrices, 4))
-    real(wp), dimension(motion%number, motion%number) :: block, sum_of_v, d
-    real(wp) :: h
-    integer :: pivot(motion%number*size(matrices, 4)), at, i, j, k, l, m, s, info
+    real(wp) :: form(motion%number*trials, motion%number*trials)
+    real(wp) :: inner(motion%number*(trials - 2), motion%number*trials)
+    real(wp) :: ends(2*motion%number, 2*motion%number), after(motion%number, 3*motion%number)
+    integer :: i, j, m, n
 
     m = motion%number
-    s = size(matrices, 4)
-    h = two_pi/motion%steps
-    associate (a => motion%rule%matrix, w => motion%rule%weight, scale => motion%scale, &
-      transfer => motion%transfer(:, :, step), response => motion%response(:, :, step))
-      ! The transpose of A, and that of E: z and p/scale at the end from z' of the stages.
-      do l = 1, s
-        d = transpose(matrices(:, :, of_g, l)) - matrices(:, :, of_damping, l)
-        do i = 1, s
-          sum_of_v = 0.0_wp
-          do j = 1, s
-            sum_of_v = sum_of_v + a(i, j)*a(j, l)*matrices(:, :, of_v, j)
-          end do
-          block = h*a(i, l)*(matrices(:, :, of_g, i) - d) - h**2*sum_of_v
-          if (i == l) block = block + matrices(:, :, of_mass, i)
-          left((l - 1)*m + 1:l*m, (i - 1)*m + 1:i*m) = transpose(block)
-        end do
-        sum_of_v = 0.0_wp
-        do j = 1, s
-          sum_of_v = sum_of_v + w(j)*a(j, l)*matrices(:, :, of_v, j)
-        end do
-        block = (h*w(l)*d + h**2*sum_of_v)/scale
-        ends((l - 1)*m + 1:l*m, :m) = 0.0_wp
-        do k = 1, m
-          ends((l - 1)*m + k, k) = h*w(l)
-        end do
-        ends((l - 1)*m + 1:l*m, m + 1:) = transpose(block)
+    n = m*(trials - 2)
+    do j = 1, trials
+      do i = 1, merge(j, trials, symmetric)
+        form((i - 1)*m + 1:i*m, (j - 1)*m + 1:j*m) = forms(:, :, i, j)
+        if (symmetric .and. i < j) form((j - 1)*m + 1:j*m, (i - 1)*m + 1:i*m) = &
+          transpose(forms(:, :, i, j))
       end do
-      call dgetf2(m*s, m*s, left, m*s, pivot, info)
-      call dgetrs("N", m*s, 2*m, left, m*s, pivot, ends, m*s, info)
-      rows = transpose(ends)
-      ! B of the state at the start: −G + h Σ a V for z, 1 for p; of the loads: h a.
-      transfer = 0.0_wp
-      response = 0.0_wp
-      do i = 1, s
-        block = -matrices(:, :, of_g, i)
-        do j = 1, s
-          block = block + h*a(i, j)*matrices(:, :, of_v, j)
-        end do
-        at = (i - 1)*m
-        do j = 1, m
-          do k = 1, m
-            transfer(:, j) = transfer(:, j) + block(k, j)*rows(:, at + k)
-          end do
-          transfer(:, m + j) = transfer(:, m + j) + scale*rows(:, at + j)
-        end do
-        do l = 1, s
-          response(:, (l - 1)*m + 1:l*m) = response(:, (l - 1)*m + 1:l*m) + &
-            h*a(i, l)*rows(:, at + 1:at + m)
-        end do
-        ! What changes z and p without z'.
-        transfer(m + 1:, :m) = transfer(m + 1:, :m) + h*w(i)/scale*matrices(:, :, of_v, i)
-        do k = 1, m
-          response(m + k, at + k) = response(m + k, at + k) + h*w(i)/scale
-        end do
+    end do
+    inner = transpose(form(:, :n))
+    call divide(n, m*trials, inner)
+    associate (transfer => motion%transfer(:, :, step), pushed => motion%inner(:, :, step), &
+      scale => motion%scale)
+      pushed = transpose(inner(:, n + 1:))
+      ends = form(n + 1:, n + 1:) - matmul(pushed, form(:n, n + 1:))
+      after(:, :m) = -ends(:m, m + 1:)
+      after(:, m + 1:2*m) = ends(:m, :m)
+      after(:, 2*m + 1:) = 0.0_wp
+      do i = 1, m
+        after(i, 2*m + i) = scale
       end do
-      do k = 1, 2*m
-        transfer(k, k) = transfer(k, k) + 1.0_wp
-      end do
+      call divide(m, 3*m, after)
+      transfer(:m, :) = after(:, m + 1:)
+      transfer(m + 1:, :) = matmul(ends(m + 1:, m + 1:), after(:, m + 1:))/scale
+      transfer(m + 1:, :m) = transfer(m + 1:, :m) + ends(m + 1:, :m)/scale
     end associate
   end subroutine make_step
+
+  !> Replaces B by `A⁻¹ B`, with exchanges of rows. Products of large parts take less time than
+  !! column after column.
+  pure subroutine divide(n, columns, a)
+    integer, intent(in) :: n, columns
+    real(wp), intent(inout) :: a(n, columns) !! A, then B
+
+    integer, parameter :: together = 24
+    real(wp) :: row(columns), left(n)
+    integer :: first, j, k, last, p
+
+    do first = 1, n, together
+      last = min(first + together - 1, n)
+      do k = first, last
+        p = k - 1 + maxloc(abs(a(k:, k)), dim=1)
+        if (p /= k) then
+          row = a(k, :)
+          a(k, :) = a(p, :)
+          a(p, :) = row
+        end if
+        left(k + 1:) = a(k + 1:, k)/a(k, k)
+        a(k + 1:, k) = left(k + 1:)
+        do j = k + 1, last
+          a(k + 1:, j) = a(k + 1:, j) - a(k, j)*left(k + 1:)
+        end do
+      end do
+      do k = first, last - 1
+        left(k + 1:last) = a(k + 1:last, k)
+        do j = last + 1, columns
+          a(k + 1:last, j) = a(k + 1:last, j) - a(k, j)*left(k + 1:last)
+        end do
+      end do
+      if (last < n) a(last + 1:, last + 1:) = a(last + 1:, last + 1:) - &
+        matmul(a(last + 1:, first:last), a(first:last, last + 1:))
+    end do
+    do first = together*((n - 1)/together) + 1, 1, -together
+      last = min(first + together - 1, n)
+      do k = last, first, -1
+        left(first:k - 1) = a(first:k - 1, k)
+        do j = n + 1, columns
+          a(k, j) = a(k, j)/a(k, k)
+          a(first:k - 1, j) = a(first:k - 1, j) - a(k, j)*left(first:k - 1)
+        end do
+      end do
+      if (first > 1) a(:first - 1, n + 1:) = a(:first - 1, n + 1:) - &
+        matmul(a(:first - 1, first:last), a(first:last, n + 1:))
+    end do
+  end subroutine divide
 
   !> The periodic slow motion under a load.
   subroutine solve_slow(plan, motion, load, z)
@@ -783,29 +903,71 @@ contains
     real(wp), intent(in) :: load(:, :) !! (samples, number) F per ω2²
     real(wp), intent(out) :: z(:, :)   !! (samples, number)
 
-    real(wp) :: coefficients(size(load, 1), size(load, 2)), moved(size(load, 1), size(load, 2))
-    real(wp) :: at_stages(size(load, 2)*size(motion%rule%node), size(load, 1))
-    real(wp) :: state(2*motion%number), push(2*motion%number, size(load, 1))
+    real(wp), dimension(size(load, 1), size(load, 2)) :: coefficients, moved
+    real(wp) :: force(size(load, 1), size(load, 2), size(motion%share, 2)), &
+      push(2*motion%number, size(load, 1)), state(2*motion%number)
     integer :: i, k, m, n, info
 
     m = motion%number
     n = motion%steps
     call coefficients_of(plan, load, coefficients)
+    force = 0.0_wp
     do i = 1, size(motion%rule%node)
       call values_of(plan, shifted(coefficients, motion%rule%node(i)*two_pi/n), moved)
-      at_stages((i - 1)*m + 1:i*m, :) = transpose(moved)
+      call add_stage(motion, i, moved, force)
     end do
+    push = pushes(motion, force)
     state = 0.0_wp
     do k = 1, n
-      push(:, k) = matmul(motion%response(:, :, k), at_stages(:, k))
-      state = matmul(motion%transfer(:, :, k), state) + push(:, k)
+      state = stepped(k)
     end do
     call dgetrs("N", 2*m, 1, motion%factor, 2*m, motion%pivot, state, 2*m, info)
     do k = 1, n
       z(k, :) = state(:m)
-      state = matmul(motion%transfer(:, :, k), state) + push(:, k)
+      state = stepped(k)
     end do
+
+  contains
+
+    pure function stepped(k) result(next)
+      integer, intent(in) :: k
+      real(wp) :: next(2*m)
+
+      next = matmul(motion%transfer(:, :, k), [state(:m), state(m + 1:) + push(:m, k)])
+      next(m + 1:) = next(m + 1:) + push(m + 1:, k)
+    end function stepped
+
   end subroutine solve_slow
+
+  !> Adds what loads at a stage are as forces on the trial functions of the steps.
+  pure subroutine add_stage(motion, stage, load, force)
+    type(slow_motion_t), intent(in) :: motion
+    integer, intent(in) :: stage
+    real(wp), intent(in) :: load(:, :)        !! (steps, number)
+    real(wp), intent(inout) :: force(:, :, :) !! (steps, number, functions)
+
+    integer :: i
+
+    do i = 1, size(force, 3)
+      force(:, :, i) = force(:, :, i) + motion%share(stage, i)*load
+    end do
+  end subroutine add_stage
+
+  !> What forces change of the momenta at the start and at the end of every step.
+  pure function pushes(motion, force) result(push)
+    type(slow_motion_t), intent(in) :: motion
+    real(wp), intent(in) :: force(:, :, :) !! (steps, number, functions)
+    real(wp) :: push(2*motion%number, size(force, 1))
+
+    real(wp) :: turned(motion%number*size(force, 3), size(force, 1))
+    integer :: k, n
+
+    turned = transpose(reshape(force, [size(force, 1), size(turned, 1)]))
+    n = size(motion%inner, 2)
+    do k = 1, size(force, 1)
+      push(:, k) = (turned(n + 1:, k) - matmul(motion%inner(:, :, k), turned(:n, k)))/motion%scale
+    end do
+  end function pushes
 
   !> Free motions, of each pair of conjugate ones that with positive turns.
   !!
@@ -922,33 +1084,35 @@ contains
 
     real(wp), dimension(size(load, 1), size(load, 2)) :: coefficients, coefficients_imaginary, &
       moved, moved_imaginary
-    real(wp) :: at_stages(size(load, 2)*size(motion%rule%node), 2, size(load, 1))
+    real(wp), dimension(size(load, 1), size(load, 2), size(motion%share, 2)) :: force, &
+      force_imaginary
     real(wp), dimension(2*motion%number, 2) :: state, turned_back
-    real(wp) :: push(2*motion%number, 2, size(load, 1))
-    complex(wp) :: turned
-    real(wp) :: left(4*motion%number, 4*motion%number), theta
+    real(wp) :: push(2*motion%number, size(load, 1), 2), left(4*motion%number, 4*motion%number), &
+      theta
+    complex(wp) :: wave(size(load, 1)), turned
     integer :: pivot(4*motion%number), i, k, m, n, info
 
     m = motion%number
     n = motion%steps
     call coefficients_of(plan, load, coefficients)
     call coefficients_of(plan, load_imaginary, coefficients_imaginary)
+    force = 0.0_wp
+    force_imaginary = 0.0_wp
     do i = 1, size(motion%rule%node)
       theta = motion%rule%node(i)*two_pi/n
       call values_of(plan, shifted(coefficients, theta), moved)
       call values_of(plan, shifted(coefficients_imaginary, theta), moved_imaginary)
-      do k = 1, n
-        turned = exp(exponent*(theta + two_pi*(k - 1)/n))
-        at_stages((i - 1)*m + 1:i*m, :, k) = parts_of_product(turned, moved(k, :), &
-          moved_imaginary(k, :))
-      end do
+      wave = [(exp(exponent*(theta + two_pi*(k - 1)/n)), k=1, n)]
+      associate (re => spread(real(wave), 2, m), im => spread(aimag(wave), 2, m))
+        call add_stage(motion, i, re*moved - im*moved_imaginary, force)
+        call add_stage(motion, i, im*moved + re*moved_imaginary, force_imaginary)
+      end associate
     end do
+    push(:, :, 1) = pushes(motion, force)
+    push(:, :, 2) = pushes(motion, force_imaginary)
     state = 0.0_wp
     do k = 1, n
-      do i = 1, 2
-        push(:, i, k) = matmul(motion%response(:, :, k), at_stages(:, i, k))
-        state(:, i) = matmul(motion%transfer(:, :, k), state(:, i)) + push(:, i, k)
-      end do
+      state = stepped(k)
     end do
     ! (e^{2πσ} − monodromy) state = what the load leaves after a turn, in real numbers
     turned = exp(two_pi*exponent)
@@ -967,10 +1131,21 @@ contains
       turned_back = parts_of_product(exp(-exponent*two_pi*(k - 1)/n), state(:, 1), state(:, 2))
       z(k, :) = turned_back(:m, 1)
       z_imaginary(k, :) = turned_back(:m, 2)
-      do i = 1, 2
-        state(:, i) = matmul(motion%transfer(:, :, k), state(:, i)) + push(:, i, k)
-      end do
+      state = stepped(k)
     end do
+
+  contains
+
+    pure function stepped(k) result(next)
+      integer, intent(in) :: k
+      real(wp) :: next(2*m, 2)
+
+      next(:m, :) = state(:m, :)
+      next(m + 1:, :) = state(m + 1:, :) + push(:m, k, :)
+      next = matmul(motion%transfer(:, :, k), next)
+      next(m + 1:, :) = next(m + 1:, :) + push(m + 1:, k, :)
+    end function stepped
+
   end subroutine solve_slow_shifted
 
   !> Real and imaginary parts of a number times a complex vector.
