@@ -5,7 +5,7 @@ module row_products
   implicit none (type, external)
   private
 
-  public :: products_of_rows, sum_of_products, add_products, multiply_by
+  public :: products_of_rows, sum_of_products, add_products, gather, scatter, together
 
   !> Samples whose matrices are gathered together: a line of the memory holds so many numbers.
   integer, parameter :: together = 8
@@ -68,29 +68,6 @@ contains
     end do
   end subroutine add_products
 
-  !> Replaces A by `A B` at every sample.
-  pure subroutine multiply_by(b, a)
-    real(wp), intent(in) :: b(:, :, :)    !! (n, n, samples)
-    real(wp), intent(inout) :: a(:, :, :) !! (samples, rows, n)
-
-    real(wp), allocatable :: left(:, :, :)
-    integer :: i, j, k, first, last
-
-    allocate (left(size(a, 2), size(a, 3), together))
-    do first = 1, size(a, 1), together
-      last = min(first + together - 1, size(a, 1))
-      call gather(a, first, last, left)
-      do k = first, last
-        left(:, :, k - first + 1) = matmul(left(:, :, k - first + 1), b(:, :, k))
-      end do
-      do j = 1, size(a, 3)
-        do i = 1, size(a, 2)
-          a(first:last, i, j) = left(i, j, :last - first + 1)
-        end do
-      end do
-    end do
-  end subroutine multiply_by
-
   !> The matrices of some samples.
   pure subroutine gather(a, first, last, matrices)
     real(wp), intent(in) :: a(:, :, :)           !! (samples, rows, columns)
@@ -105,5 +82,20 @@ contains
       end do
     end do
   end subroutine gather
+
+  !> Puts the matrices of some samples back.
+  pure subroutine scatter(matrices, first, last, a)
+    real(wp), intent(in) :: matrices(:, :, :) !! (rows, columns, samples)
+    integer, intent(in) :: first, last        !! of the samples
+    real(wp), intent(inout) :: a(:, :, :)     !! (samples, rows, columns)
+
+    integer :: i, j
+
+    do j = 1, size(a, 3)
+      do i = 1, size(a, 2)
+        a(first:last, i, j) = matrices(i, j, :last - first + 1)
+      end do
+    end do
+  end subroutine scatter
 
 end module row_products

@@ -25,7 +25,7 @@ module slow_motions
   use legendre, only: legendre_values
   use load_cases, only: constant_case
   use piece_motions, only: add_convection, scale_share
-  use row_products, only: add_products, multiply_by, products_of_rows
+  use row_products, only: add_products, gather, products_of_rows, scatter, together
   use sorting, only: ascending_order
   use text, only: to_string
   use turn_grids, only: moves, rate_case, turn_grid_t
@@ -33,7 +33,7 @@ module slow_motions
   private
 
   public :: slow_basis_t, new_slow_basis, slow_motion_t, new_slow_motion, solve_slow, &
-    slow_count, own_squares, slow_mode_t, slow_modes, slow_mode_shape, solve_slow_shifted, &
+    slow_count, own_squares, fast_squares, slow_mode_t, slow_modes, slow_mode_shape, solve_slow_shifted, &
     frozen_matrices, add_shape_frequencies
 
   !> Subspace iterations at most: the error of the lowest frequencies falls by the square of the
@@ -121,6 +121,19 @@ contains
     number = min(grid%unknowns, max(3, count(own_squares(grid)*limit**2 > 1.0_wp) + 1))
   end function slow_count
 
+  !> 1/ω² of every deformation by itself, 0 of the slow ones [s²].
+  pure function fast_squares(grid, number) result(square)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: number !! of slow coordinates
+    real(wp) :: square(grid%unknowns)
+
+    integer, allocatable :: order(:)
+
+    square = own_squares(grid)
+    order = ascending_order(-square)
+    square(order(:number)) = 0.0_wp
+  end function fast_squares
+
   !> 1/ω² of every deformation by itself [s²]; those of the border from the mean of M over the turn.
   pure function own_squares(grid) result(square)
     type(turn_grid_t), intent(in) :: grid
@@ -193,9 +206,8 @@ contains
     integer :: i
 
     basis%number = number
-    basis%square = own_squares(coarse)
-    order = ascending_order(-basis%square)
-    basis%square(order(:number)) = 0.0_wp
+    basis%square = fast_squares(coarse, number)
+    order = ascending_order(-own_squares(coarse))
     call find_shapes(coarse, coarse_plan, order(:number), shape, error)
     if (allocated(error)) return
     call find_matrices(coarse, coarse_plan, shape, basis%sums)
@@ -450,29 +462,42 @@ contains
     real(wp), intent(inout) :: shape(:, :, :) !! (samples, unknowns, number)
     type(error_t), allocatable, intent(out) :: error
 
-    real(wp) :: scaling(size(slow), size(slow), size(shape, 1)), products(size(shape, 1), &
-      size(slow)**2), least
-    integer :: i, k
+    real(wp), allocatable :: some(:, :, :)
+    integer :: first, k, last
 
-    do k = 1, size(shape, 1)
-      call invert(shape(k, slow, :), scaling(:, :, k))
-    end do
-    call multiply_by(scaling, shape)
-    ! Columns of which little is left beside those before are perpendicular after a second time.
-    do i = 1, 2
-      products = 0.0_wp
-      call add_products(shape, shape, products)
-      least = huge(least)
-      do k = 1, size(shape, 1)
-        call find_perpendicular(reshape(products(k, :), [size(slow), size(slow)]), &
-          scaling(:, :, k), least)
+    allocate (some(size(shape, 2), size(shape, 3), together))
+    do first = 1, size(shape, 1), together
+      last = min(first + together - 1, size(shape, 1))
+      call gather(shape, first, last, some)
+      do k = 1, last - first + 1
+        call normalise_one(slow, some(:, :, k))
       end do
-      call multiply_by(scaling, shape)
-      if (least > enough_left) exit
+      call scatter(some, first, last, shape)
     end do
     if (.not. all(abs(shape) <= huge(1.0_wp))) call set_error(error, error_of_numerics, &
       "the slow vibrations cannot be told from the fast ones")
   end subroutine normalise
+
+  !> The same at one crank angle.
+  subroutine normalise_one(slow, x)
+    integer, intent(in) :: slow(:)
+    real(wp), intent(inout) :: x(:, :) !! (unknowns, number)
+
+    real(wp) :: scaling(size(x, 2), size(x, 2)), turned(size(x, 2), size(x, 1)), least
+    integer :: i
+
+    call invert(x(slow, :), scaling)
+    x = matmul(x, scaling)
+    ! Columns of which little is left beside those before are perpendicular after a second time.
+    do i = 1, 2
+      ! Products of transposes that are not copies take twice the time.
+      turned = transpose(x)
+      least = huge(least)
+      call find_perpendicular(matmul(turned, x), scaling, least)
+      x = matmul(x, scaling)
+      if (least > enough_left) exit
+    end do
+  end subroutine normalise_one
 
   !> Columns A so that those of X A are perpendicular and as long as 1, each of those of X up to its
   !! own: Gram and Schmidt's, from XᵀX.

@@ -9,10 +9,11 @@ module response_levels
   use kinds, only: wp
   use link_degrees, only: link_degrees_t, uniform_degrees
   use link_store, only: link_store_t
+  use order_transfer, only: transferred
   use refinements, only: order_on, refinement_t, samples_on
   use response_types, only: damping_by_dampers, damping_ratio, damping_time, &
     link_damping_t
-  use slow_motions, only: new_slow_basis, slow_basis_t
+  use slow_motions, only: fast_squares, new_slow_basis, slow_basis_t
   use position_assembly, only: set_border
   use structures, only: structure_t
   use turn_grids, only: new_turn_grid, turn_grid_t
@@ -157,8 +158,11 @@ contains
     if (allocated(error)) return
     call new_turn_grid(structure, model, samples, level%grid, error, backwards)
     if (allocated(error)) return
-    call new_turn_grid(structure, model, min(samples, basis_samples), level%coarse, error, &
-      backwards)
+    if (samples > basis_samples) then
+      call new_turn_grid(structure, model, basis_samples, level%coarse, error, backwards)
+    else
+      level%coarse = level%grid
+    end if
     level%order = order
     allocate (level%basis(model%layout%unknowns))
   end subroutine new_level
@@ -197,7 +201,7 @@ contains
   !> Makes the slow coordinates of a level, unless they are there.
   !!
   !! Errors: as `new_slow_basis`.
-  subroutine need_basis(number, dampings, level, error, followers)
+  subroutine need_basis(number, dampings, level, error, followers, known)
     integer, intent(in) :: number                    !! of slow coordinates
     type(link_damping_t), intent(in) :: dampings(:)  !! as for `damping_of`, the same for all of a
                                                      !! level
@@ -205,16 +209,45 @@ contains
     type(error_t), allocatable, intent(out) :: error !! why there are none
     logical, intent(in), optional :: followers       !! as for `new_slow_basis`, the same for all of
                                                      !! a level
+    type(level_t), intent(in), optional :: known     !! one of lower orders with as many: without
+                                                     !! followers they may be the same
 
     type(fourier_plan_t) :: plan, coarse_plan
 
     if (level%basis(number)%number > 0) return
     call open_fourier(level%grid%samples, plan)
+    if (present(known)) then
+      call take_known
+      call close_fourier(plan)
+      return
+    end if
     call open_fourier(level%coarse%samples, coarse_plan)
     call new_slow_basis(level%coarse, coarse_plan, plan, number, damping_of(dampings, &
       level%grid), level%basis(number), error, followers)
     call close_fourier(plan)
     call close_fourier(coarse_plan)
+
+  contains
+
+    subroutine take_known
+      type(fourier_plan_t) :: known_plan
+      real(wp), allocatable :: shape(:, :)
+      integer :: i
+
+      call open_fourier(known%grid%samples, known_plan)
+      associate (from => known%basis(number), to => level%basis(number))
+        to%number = number
+        to%square = fast_squares(level%grid, number)
+        to%sums = from%sums
+        allocate (to%shape(level%grid%samples, level%grid%unknowns, number))
+        do i = 1, number
+          call transferred(known%grid, known_plan, level%grid, plan, from%shape(:, :, i), shape)
+          to%shape(:, :, i) = shape
+        end do
+      end associate
+      call close_fourier(known_plan)
+    end subroutine take_known
+
   end subroutine need_basis
 
   !> Damping of every unknown: the Kelvin–Voigt time, or `2 ζ/ω` of the own modes of the link. The

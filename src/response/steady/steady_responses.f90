@@ -235,16 +235,13 @@ contains
     type(choice_t), intent(inout) :: choice
     type(error_t), allocatable, intent(out) :: error
 
-    integer :: i
-
     associate (samples => refinement%samples, above => samples_on(refinement, 2))
       choice%slow = slow_count(levels(refinement%level(1))%level%coarse, speed* &
         merge(min(above, 2*samples)/least_a_period, samples/samples_a_period, choice%more_slow))
     end associate
-    do i = 1, 2
-      call need_basis(choice%slow, request%damping, levels(refinement%level(i))%level, error)
-      if (allocated(error)) return
-    end do
+    call need_basis(choice%slow, request%damping, levels(refinement%level(1))%level, error)
+    if (.not. allocated(error)) call need_basis(choice%slow, request%damping, &
+      levels(refinement%level(2))%level, error, known=levels(refinement%level(1))%level)
   end subroutine find_bases
 
   !> Polynomial degree to begin with.
