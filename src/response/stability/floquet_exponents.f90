@@ -20,7 +20,6 @@ module floquet_exponents
   use kinds, only: wp
   use periodic_solver, only: add_slow, complete_solution, slow_part
   use quadratic_pencil, only: find_pencil_modes
-  use row_products, only: sum_of_products
   use slow_motions, only: slow_basis_t, slow_mode_shape, slow_mode_t, slow_modes, slow_motion_t, &
     solve_slow_shifted
   use turn_grids, only: turn_grid_t
@@ -501,13 +500,13 @@ contains
       solved = 0.0_wp
       do c = 1, k
         do i = 1, n
-          vector(:, :, c) = vector(:, :, c) + times(q(i, c), space%vector(:, :, i))
+          call add_times(q(i, c), space%vector(:, :, i), vector(:, :, c))
           do p = 0, 2
-            parts(:, :, p, c) = parts(:, :, p, c) + times(q(i, c), space%parts(:, :, p, i))
+            call add_times(q(i, c), space%parts(:, :, p, i), parts(:, :, p, c))
           end do
           if (.not. space%is_harmonic) cycle
           do p = 0, 3
-            solved(:, :, p, c) = solved(:, :, p, c) + times(q(i, c), space%solved(:, :, p, i))
+            call add_times(q(i, c), space%solved(:, :, p, i), solved(:, :, p, c))
           end do
         end do
       end do
@@ -591,7 +590,7 @@ contains
 
       z = 0.0_wp
       do i = 1, size(weights)
-        z = z + times(weights(i), space%vector(:, :, i))
+        call add_times(weights(i), space%vector(:, :, i), z)
       end do
     end function motion_of
 
@@ -636,7 +635,7 @@ contains
       v = v/length
       do time = 1, 2
         do i = 1, space%number
-          v = v - times(product_of(space%vector(:, :, i), v), space%vector(:, :, i))
+          call add_times(-product_of(space%vector(:, :, i), v), space%vector(:, :, i), v)
         end do
         length = norm2(v)
         if (length < within) return
@@ -694,7 +693,7 @@ contains
       residual = 0.0_wp
       do i = 1, size(weights)
         do p = 0, 2
-          residual = residual + times(weights(i)*exponent**p, space%parts(:, :, p, i))
+          call add_times(weights(i)*exponent**p, space%parts(:, :, p, i), residual)
         end do
       end do
     end subroutine find_residual
@@ -707,13 +706,12 @@ contains
       complex(wp) :: kinetic
       integer :: i
 
-      z = 0.0_wp
+      z = motion_of(weights)
       first = 0.0_wp
       second = 0.0_wp
       do i = 1, size(weights)
-        z = z + times(weights(i), space%vector(:, :, i))
-        first = first + times(weights(i), space%parts(:, :, 1, i))
-        second = second + times(weights(i), space%parts(:, :, 2, i))
+        call add_times(weights(i), space%parts(:, :, 1, i), first)
+        call add_times(weights(i), space%parts(:, :, 2, i), second)
       end do
       mode%motion = z
       kinetic = product_of(z, second)
@@ -742,11 +740,24 @@ contains
     real(wp), intent(in) :: z(:, :), f(:, :)
     complex(wp) :: product
 
-    integer :: n
+    real(wp), dimension(size(z, 1)) :: re, im
+    integer :: j, n
 
     n = size(z, 2)/2
-    product = cmplx(sum_of_products(z, f), sum_of_products(z(:, :n), f(:, n + 1:)) - &
-      sum_of_products(z(:, n + 1:), f(:, :n)), wp)
+    re = 0.0_wp
+    im = 0.0_wp
+    ! Two columns at once: the sums are in memory, and go there and back once.
+    do j = 1, n - 1, 2
+      re = re + z(:, j)*f(:, j) + z(:, n + j)*f(:, n + j) + z(:, j + 1)*f(:, j + 1) + &
+        z(:, n + j + 1)*f(:, n + j + 1)
+      im = im + z(:, j)*f(:, n + j) - z(:, n + j)*f(:, j) + z(:, j + 1)*f(:, n + j + 1) - &
+        z(:, n + j + 1)*f(:, j + 1)
+    end do
+    if (modulo(n, 2) == 1) then
+      re = re + z(:, n)*f(:, n) + z(:, 2*n)*f(:, 2*n)
+      im = im + z(:, n)*f(:, 2*n) - z(:, 2*n)*f(:, n)
+    end if
+    product = cmplx(sum(re), sum(im), wp)
   end function product_of
 
   !> `Σ |z| |f|`.
@@ -772,5 +783,20 @@ contains
     product(:, :n) = real(c)*f(:, :n) - aimag(c)*f(:, n + 1:)
     product(:, n + 1:) = real(c)*f(:, n + 1:) + aimag(c)*f(:, :n)
   end function times
+
+  !> Adds `c f`.
+  pure subroutine add_times(c, f, total)
+    complex(wp), intent(in) :: c
+    real(wp), intent(in) :: f(:, :)        !! (samples, real and imaginary parts)
+    real(wp), intent(inout) :: total(:, :)
+
+    integer :: j, n
+
+    n = size(f, 2)/2
+    do j = 1, n
+      total(:, j) = total(:, j) + real(c)*f(:, j) - aimag(c)*f(:, n + j)
+      total(:, n + j) = total(:, n + j) + real(c)*f(:, n + j) + aimag(c)*f(:, j)
+    end do
+  end subroutine add_times
 
 end module floquet_exponents
