@@ -344,10 +344,9 @@ contains
       work(:, c) = products_of_rows(grid%load(:, :, c), y)
     end do
     call derivatives(plan, work, slope, second)
-    call derivatives(plan, grid%load(:, :, 1), load_slope)
-    series(:, 1) = speed**2*(2.0_wp*slope(:, 1) - products_of_rows(load_slope, y) - second(:, 2))
-    call derivatives(plan, grid%load(:, :, constant_case), load_slope)
-    series(:, 1) = series(:, 1) - products_of_rows(load_slope, y)
+    call derivatives(plan, speed**2*grid%load(:, :, 1) + grid%load(:, :, constant_case), &
+      load_slope)
+    series(:, 1) = speed**2*(2.0_wp*slope(:, 1) - second(:, 2)) - products_of_rows(load_slope, y)
     series(:, 2) = 0.0_wp
     if (.not. terms%quadratic) return
     call derivatives(plan, y, first)

@@ -548,6 +548,7 @@ contains
     integer :: b, c, i, j, n
 
     do b = 1, size(grid%integrals)
+      if (.not. any(abs(force_of(:, :, b)) > 0.0_wp)) cycle
       associate (link => grid%model%links(b), first => grid%first(b))
         slope = slopes_of(grid, b, y)
         n = size(slope, 2)
