@@ -33,7 +33,8 @@ module slow_motions
   private
 
   public :: slow_basis_t, new_slow_basis, slow_motion_t, new_slow_motion, solve_slow, &
-    slow_count, own_squares, fast_squares, slow_mode_t, slow_modes, slow_mode_shape, solve_slow_shifted, &
+    slow_count, own_squares, fast_squares, slow_mode_t, slow_modes, slow_mode_shape, &
+    solve_slow_shifted, &
     frozen_matrices, add_shape_frequencies
 
   !> Subspace iterations at most: the error of the lowest frequencies falls by the square of the
@@ -708,9 +709,9 @@ contains
   end subroutine make_steps
 
   !> Series of the matrices H of a step from any crank angle on, by pairs of trial functions of its
-  !! polynomials: with forces f, `Σ H_ij Z_j + f_i` is 0, the momentum at the end less its sign at the
-  !! start for the functions of the ends. Those of inner amplitudes are integrals of Legendre's
-  !! polynomials, behind them are those of the start and the end.
+  !! polynomials. With forces f, `Σ H_ij Z_j + f_i` is 0 for inner amplitudes, less the momentum for
+  !! the start, the momentum for the end. Trial functions are integrals of Legendre's polynomials
+  !! for inner amplitudes, then those of the start and of the end.
   subroutine find_forms(basis, speed, symmetric, motion, series)
     type(slow_basis_t), intent(in) :: basis
     real(wp), intent(in) :: speed
