@@ -177,14 +177,13 @@ contains
   !> Places the parts, and finds what the border unknowns do to them and the forces in them.
   !!
   !! Errors: those of `place_parts` and `find_part_chords`.
-  subroutine load_parts(structure, model, pose, here, chords, error, in_motion)
+  subroutine load_parts(structure, model, pose, here, chords, error)
     class(structure_t), intent(in) :: structure      !! with parts
     type(deformation_model_t), intent(in) :: model   !! of these, with a border
     type(pose_t), intent(in) :: pose                 !! of the linkage that moves
     type(assembled_t), intent(inout) :: here         !! of this model, with the loads of this pose
     type(chords_t), intent(inout) :: chords          !! of the border unknowns
     type(error_t), allocatable, intent(out) :: error
-    logical, intent(in), optional :: in_motion       !! the linkage moves; absent: it is held
 
     call place_parts(structure, model, pose, here, error)
     if (allocated(error)) return
@@ -198,9 +197,6 @@ contains
         here%part_forces)
       return
     end if
-    ! Of blocks: their I ω² of the second order is that of a linkage at rest. In motion it would
-    ! cancel with a centripetal term, for ½ I (ω + θ')² has no θ², and both are left out.
-    if (present(in_motion)) here%part_loads%carried(4, :, :) = 0.0_wp
     call find_part_forces(structure%linkage, here%elastic, here%model%links, here%pose, &
       here%part_loads, here%border, chords, here%part_forces)
   end subroutine load_parts

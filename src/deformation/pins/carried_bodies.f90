@@ -16,8 +16,8 @@ module carried_bodies
   implicit none (type, external)
   private
 
-  public :: carried_loads, carried_force, carried_work, add_carried_mass, add_carried_stiffness, &
-    add_short_pieces
+  public :: carried_loads, carried_force, carried_work, carried_motion, add_carried_mass, &
+    add_carried_stiffness, add_short_pieces
 
 contains
 
@@ -79,6 +79,30 @@ contains
     end do
   end function carried_work
 
+  !> Motion of one in fixed axes: of its mass centre, and the rotation of the cross-section at a
+  !! unit arm along the way.
+  pure function carried_motion(elastic, pose, chords, number) result(motion)
+    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
+    type(pose_t), intent(in) :: pose                !! of points and parts
+    type(chords_t), intent(in) :: chords            !! what displacements do to points
+    integer, intent(in) :: number                   !! of the carried body
+    real(wp) :: motion(2, 2, size(chords%turn, 1))  !! (x and y, of centre and arm, displacements)
+
+    real(wp) :: along(2), across(2)
+
+    associate (this => elastic%carried(number))
+      along = pose%direction(:, elastic%ways(this%way)%first_part)
+      across = normal_to(turned(this%arm, along))
+      motion(:, 1, :) = chords%pin(:, this%point, :)
+      motion(:, 2, :) = 0.0_wp
+      if (this%rotation <= 0) return
+      associate (turn => chords%rotation(this%rotation, :))
+        motion(:, 1, :) = motion(:, 1, :) + spread(across, 2, size(turn))*spread(turn, 1, 2)
+        motion(:, 2, :) = spread(normal_to(along), 2, size(turn))*spread(turn, 1, 2)
+      end associate
+    end associate
+  end function carried_motion
+
   !> Adds what they do to the mass matrix between some displacements, with the cross-sections of
   !! short pieces.
   pure subroutine add_carried_mass(elastic, pose, chords, mass)
@@ -87,23 +111,20 @@ contains
     type(chords_t), intent(in) :: chords           !! what the displacements do to points
     real(wp), intent(inout) :: mass(:, :)          !! (displacements, displacements)
 
-    real(wp) :: moved(2, size(mass, 1)), turn(size(mass, 1)), arm(2)
+    real(wp) :: moved(2, 2, size(mass, 1))
     integer :: i, j
 
     do i = 1, size(elastic%carried)
       associate (this => elastic%carried(i))
-        turn = 0.0_wp
-        if (this%rotation > 0) turn = chords%rotation(this%rotation, :)
         if (this%mass > 0.0_wp) then
-          arm = normal_to(turned(this%arm, pose%direction(:, elastic%ways(this%way)%first_part)))
-          do j = 1, size(turn)
-            moved(:, j) = chords%pin(:, this%point, j) + turn(j)*arm
-          end do
-          do j = 1, size(turn)
-            mass(:, j) = mass(:, j) + this%mass*(moved(1, :)*moved(1, j) + moved(2, :)*moved(2, j))
+          moved = carried_motion(elastic, pose, chords, i)
+          do j = 1, size(mass, 2)
+            mass(:, j) = mass(:, j) + this%mass*(moved(1, 1, :)*moved(1, 1, j) + moved(2, 1, &
+              :)*moved(2, 1, j))
           end do
         end if
-        call add_inertia(this%inertia, turn, mass)
+        if (this%rotation > 0) call add_inertia(this%inertia, chords%rotation(this%rotation, :), &
+          mass)
       end associate
     end do
     do i = 1, size(elastic%ways)

@@ -10,7 +10,6 @@ module response_peaks
   use kinds, only: wp
   use link_rows, only: displacement_rows, strain_rows, strain_rows_t
   use response_types, only: peak_t, response_request_t, speed_response_t
-  use moving_pieces, only: last_end
   use turn_grids, only: moves, sense_of, turn_grid_t
   implicit none (type, external)
   private
@@ -229,21 +228,18 @@ contains
       call place_on_link(found%largest_deflection(b))
     end subroutine look_at_deflections
 
-    !> The share of the way along a link or, with a block on it, along both of its pieces.
+    !> The share of the way along a link or, of a piece, along all pieces of its way.
     subroutine place_on_link(peak)
       type(peak_t), intent(inout) :: peak
 
-      real(wp) :: ratio(grid%samples, 1), here(1)
+      real(wp) :: ratio(grid%samples, b), here(b)
 
       peak%share = peak%xi
       if (.not. moves(grid, b)) return
-      call coefficients_of(plan, grid%ratio(:, b:b), ratio)
+      call coefficients_of(plan, grid%ratio(:, :b), ratio)
       here = value_at(ratio, sense_of(grid)*peak%crank*degree)
-      if (grid%pieces(b)%moving_end == last_end) then
-        peak%share = peak%xi*here(1)
-      else
-        peak%share = 1.0_wp - (1.0_wp - peak%xi)*here(1)
-      end if
+      peak%share = peak%xi*here(b) + sum(here(:b - 1), mask=grid%pieces(:b - 1)%way == &
+        grid%pieces(b)%way)
     end subroutine place_on_link
 
     !> The largest value: of all sampled maxima in a piece that may hide it, the largest between

@@ -8,7 +8,7 @@ module response_series
   use kinds, only: wp
   use link_rows, only: displacement_rows, strain_rows, strain_rows_t, sums_of_rows
   use load_cases, only: case_count, constant_case
-  use piece_motions, only: add_convection, add_flux
+  use piece_motions, only: add_convection, work_of_flux
   use passing_places, only: gauge_at_place, place_terms, point_at_place
   use response_levels, only: damping_of
   use response_types, only: response_request_t
@@ -136,10 +136,10 @@ contains
   end function damping_torque
 
   !> Displacement of a point in global axes and the rotation of its cross-section. On a link along
-  !! which a block slides it is on one piece or on the other.
+  !! which blocks slide it is on one piece or on another.
   pure function point_series(grid, body, place, y) result(series)
     type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: body      !! number; of a link with a block the piece before it
+    integer, intent(in) :: body      !! number; of a way with blocks its first piece
     real(wp), intent(in) :: place(2) !! from its first end, in its axes [m]
     real(wp), intent(in) :: y(:, :)  !! (samples, unknowns) [√J]
     real(wp) :: series(size(y, 1), 3)
@@ -177,8 +177,8 @@ contains
     end associate
   end function place_series
 
-  !> Axial strain, curvature and shear force at a place of a link. On one along which a block slides
-  !! it is on one piece or on the other.
+  !> Axial strain, curvature and shear force at a place of a link. On one along which blocks slide
+  !! it is on one piece or on another.
   subroutine add_gauge(grid, plan, body, xi, speed, y, series)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
@@ -217,8 +217,8 @@ contains
   !> Axial strain, curvature and shear force at a place of a link along which a block slides.
   pure function gauge_series(grid, body, share, y) result(series)
     type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: body     !! the piece before the block
-    real(wp), intent(in) :: share   !! of the way along both pieces
+    integer, intent(in) :: body     !! the first piece
+    real(wp), intent(in) :: share   !! of the way
     real(wp), intent(in) :: y(:, :) !! (samples, unknowns)
     real(wp) :: series(size(y, 1), 3)
 
@@ -400,7 +400,7 @@ contains
         turned = times_mass(grid, b, q)
         if (size(integrals%rotary) > 0) turned = turned - matmul(q, integrals%rotary)
         work = work - h**2*products_of_rows(moved, turned)
-        if (moves(grid, b)) work = work + work_of_flux(grid, b, q, moved)
+        work = work + work_of_flux(grid, b, q, moved)
         deallocate (first, second, swept)
       end associate
     end do
@@ -421,25 +421,5 @@ contains
       work = work + grid%pin_mass(p)*products_of_rows(moved, pin_second)
     end do
   end subroutine swept_work
-
-  !> What the momentum that passes the block under a piece works, `μ c'² ∂u/∂x` on the mean of S' y
-  !! at both sides, before the block with a minus sign: the jump of S' y is −c' times that of ∂u/∂x.
-  pure function work_of_flux(grid, b, q, moved) result(work)
-    type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: b
-    real(wp), intent(in) :: q(:, :), moved(:, :) !! (samples, functions) of y and of S' y
-    real(wp) :: work(size(q, 1))
-
-    real(wp) :: passed(size(q, 1), size(q, 2)), strain(size(q, 1))
-
-    passed = 0.0_wp
-    call add_flux(grid, b, q, passed)
-    associate (cut => grid%pieces(b)%cut, across => grid%pieces(b)%cut - 2 - &
-      grid%pieces(b)%curves, mass => sum(grid%model%links(b)%axial_linear))
-      strain = matmul(q, grid%pieces(b)%flux)/mass
-      work = passed(:, cut)*(moved(:, cut) - grid%rate(:, b)*q(:, across) - &
-        0.5_wp*grid%stretch(:, b)*strain)
-    end associate
-  end function work_of_flux
 
 end module response_series

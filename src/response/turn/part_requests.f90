@@ -3,7 +3,6 @@ module part_requests
   use elastic_linkages, only: elastic_linkage_t, is_piece
   use kinds, only: wp
   use linkages, only: turned_back
-  use moving_pieces, only: first_end, moving_ends
   use response_types, only: damping_by_dampers, link_damping_t, peak_t, response_request_t, &
     speed_response_t
   implicit none (type, external)
@@ -14,8 +13,8 @@ module part_requests
 contains
 
   !> The request with parts for bodies. A gauge is at a place along the way of its link from part to
-  !! part, a point on the nearest part; where two parts are equally near, on the first. Two pieces
-  !! with a block between them are one part here, the first of them.
+  !! part, a point on the nearest part; where two parts are equally near, on the first. The pieces
+  !! of a way are one part here, the first of them.
   pure function request_of_parts(elastic, request) result(of_parts)
     type(elastic_linkage_t), intent(in) :: elastic     !! before it is placed
     type(response_request_t), intent(in) :: request    !! of links
@@ -55,14 +54,14 @@ contains
     real(wp), intent(out) :: xi   !! along it, 0 to 1
 
     real(wp) :: left
-    logical :: is_second(size(elastic%body))
+    logical :: is_further(size(elastic%body))
     integer :: k
 
-    is_second = are_second(elastic)
+    is_further = are_further(elastic)
     left = share*way_length(elastic, link)
     part = 0
     do k = 1, size(elastic%body)
-      if (elastic%body(k) /= link .or. is_second(k)) cycle
+      if (elastic%body(k) /= link .or. is_further(k)) cycle
       if (part > 0) left = left - elastic%linkage%bodies(part)%length
       part = k
       if (left <= elastic%linkage%bodies(k)%length) exit
@@ -70,14 +69,16 @@ contains
     xi = min(max(left/elastic%linkage%bodies(part)%length, 0.0_wp), 1.0_wp)
   end subroutine find_part_along
 
-  !> Which parts are the second piece of a way, behind a block: before it is placed the first has
-  !! the length of both.
-  pure function are_second(elastic)
+  !> Which parts are further pieces of a way: before it is placed each has the length of all.
+  pure function are_further(elastic)
     type(elastic_linkage_t), intent(in) :: elastic
-    logical :: are_second(size(elastic%body))
+    logical :: are_further(size(elastic%body))
 
-    are_second = moving_ends(elastic) == first_end
-  end function are_second
+    are_further(:1) = .false.
+    associate (way => elastic%way)
+      are_further(2:) = way(2:) > 0 .and. way(2:) == way(:size(way) - 1)
+    end associate
+  end function are_further
 
   !> Length of a link along its parts [m].
   pure function way_length(elastic, link) result(length)
@@ -86,7 +87,7 @@ contains
     real(wp) :: length
 
     length = sum(elastic%linkage%bodies%length, mask=elastic%body == link .and. &
-      .not. are_second(elastic))
+      .not. are_further(elastic))
   end function way_length
 
   !> The part to which a place on a link is nearest.
@@ -100,14 +101,14 @@ contains
     ! Places at a corner are equally near to both of its parts but for rounding.
     real(wp), parameter :: nearer = 1.0e-9_wp
     real(wp) :: here(2), apart, least
-    logical :: is_second(size(elastic%body))
+    logical :: is_further(size(elastic%body))
     integer :: k
 
     part = 0
     least = huge(least)
-    is_second = are_second(elastic)
+    is_further = are_further(elastic)
     do k = 1, size(elastic%body)
-      if (elastic%body(k) /= link .or. is_second(k)) cycle
+      if (elastic%body(k) /= link .or. is_further(k)) cycle
       here = turned_back(place - elastic%place(:, k), elastic%axis(:, k))
       associate (length => elastic%linkage%bodies(k)%length)
         apart = hypot(here(1) - min(max(here(1), 0.0_wp), length), here(2))
@@ -148,17 +149,17 @@ contains
 
       type(peak_t), allocatable :: of_links(:)
       real(wp) :: before(links)
-      logical :: is_second(size(elastic%body))
+      logical :: is_further(size(elastic%body))
       integer :: k
 
       if (.not. allocated(of_parts)) return
       allocate (of_links(links))
       before = 0.0_wp
-      is_second = are_second(elastic)
+      is_further = are_further(elastic)
       do k = 1, size(elastic%body)
         associate (b => elastic%body(k), length => elastic%linkage%bodies(k)%length)
-          ! A second piece begins with the first, of which it is the rest.
-          if (is_second(k)) before(b) = before(b) - length
+          ! A further piece begins with the first: shares are those of the way.
+          if (is_further(k)) before(b) = before(b) - length
           if (of_parts(k)%value > of_links(b)%value) then
             of_links(b) = of_parts(k)
             of_links(b)%xi = (before(b) + of_parts(k)%share*length)/way_length(elastic, b)

@@ -1,5 +1,5 @@
-!> Displacements and strains at places of a link along which a block slides: a place is on one piece
-!! before the block has passed it, and on the other after.
+!> Displacements and strains at places of a link along which blocks slide: a place is on one piece
+!! before a block has passed it, and on the next after.
 !!
 !! At a place quantities have kinks where the block passes it, and the shear force jumps, while all
 !! that they are made of is smooth over the turn: between samples this is interpolated, not they.
@@ -15,27 +15,38 @@ module passing_places
 
 contains
 
-  !> What quantities at places of a link are made of: of both of its pieces the amplitudes of the
+  !> What quantities at places of a way are made of: of all of its pieces the amplitudes of the
   !! functions, the elongation and the share of the length, then the direction of the link.
   pure function place_terms(grid, body, y) result(terms)
     type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: body        !! the piece before the block; that behind it follows
+    integer, intent(in) :: body        !! the first piece
     real(wp), intent(in) :: y(:, :)    !! (samples, unknowns) [√J]
     real(wp), allocatable :: terms(:, :) !! (samples, terms)
 
     integer :: at, b, n
 
-    allocate (terms(size(y, 1), terms_of(grid, body) + terms_of(grid, body + 1) + 2))
-    at = 0
-    do b = body, body + 1
-      n = terms_of(grid, b)
-      terms(:, at + 1:at + n - 2) = functions_of(grid, b, y)
-      terms(:, at + n - 1) = elongation_of(grid, b, y)
-      terms(:, at + n) = grid%ratio(:, b)
-      at = at + n
-    end do
+    associate (last => last_piece(grid, body))
+      allocate (terms(size(y, 1), sum([(terms_of(grid, b), b=body, last)]) + 2))
+      at = 0
+      do b = body, last
+        n = terms_of(grid, b)
+        terms(:, at + 1:at + n - 2) = functions_of(grid, b, y)
+        terms(:, at + n - 1) = elongation_of(grid, b, y)
+        terms(:, at + n) = grid%ratio(:, b)
+        at = at + n
+      end do
+    end associate
     terms(:, at + 1:) = grid%direction(:, :, body)
   end function place_terms
+
+  !> Number of the last piece of the way of one.
+  pure function last_piece(grid, body) result(last)
+    type(turn_grid_t), intent(in) :: grid
+    integer, intent(in) :: body
+    integer :: last
+
+    last = findloc(grid%pieces%way, grid%pieces(body)%way, dim=1, back=.true.)
+  end function last_piece
 
   !> Number of the terms of a piece.
   pure function terms_of(grid, body) result(number)
@@ -49,7 +60,7 @@ contains
   !> The displacement of a point in fixed axes and the rotation of its cross-section.
   pure function point_at_place(grid, body, place, terms) result(values)
     type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: body        !! the piece before the block
+    integer, intent(in) :: body        !! the first piece
     real(wp), intent(in) :: place(2)   !! from its first end, in the axes of the link [m]
     real(wp), intent(in) :: terms(:)   !! of `place_terms` at a crank angle
     real(wp) :: values(3)              !! x, y, rotation [m, m, rad]
@@ -71,8 +82,8 @@ contains
   !> Axial strain, curvature and shear force at a place.
   pure function gauge_at_place(grid, body, share, terms) result(values)
     type(turn_grid_t), intent(in) :: grid
-    integer, intent(in) :: body        !! the piece before the block
-    real(wp), intent(in) :: share      !! of the way along both pieces
+    integer, intent(in) :: body        !! the first piece
+    real(wp), intent(in) :: share      !! of the way
     real(wp), intent(in) :: terms(:)   !! of `place_terms` at a crank angle
     real(wp) :: values(3)              !! [-, 1/m, N]
 
@@ -97,26 +108,26 @@ contains
   pure subroutine find_piece(grid, body, share, terms, b, xi, here)
     type(turn_grid_t), intent(in) :: grid
     integer, intent(in) :: body
-    real(wp), intent(in) :: share    !! of the way along both pieces
+    real(wp), intent(in) :: share    !! of the way
     real(wp), intent(in) :: terms(:)
     integer, intent(out) :: b        !! its number
     real(wp), intent(out) :: xi      !! along it, 0 to 1
     real(wp), allocatable, intent(out) :: here(:) !! its terms
 
-    integer :: n
+    real(wp) :: left
+    integer :: at, n
 
-    n = terms_of(grid, body)
-    associate (before => terms(n))
-      if (share <= before) then
-        b = body
-        xi = min(max(share/before, 0.0_wp), 1.0_wp)
-        here = terms(:n)
-      else
-        b = body + 1
-        here = terms(n + 1:size(terms) - 2)
-        xi = min(max(1.0_wp - (1.0_wp - share)/here(size(here)), 0.0_wp), 1.0_wp)
-      end if
-    end associate
+    left = share
+    at = 0
+    do b = body, last_piece(grid, body)
+      n = terms_of(grid, b)
+      here = terms(at + 1:at + n)
+      xi = min(max(left/here(n), 0.0_wp), 1.0_wp)
+      if (left <= here(n)) return
+      left = left - here(n)
+      at = at + n
+    end do
+    b = last_piece(grid, body)
   end subroutine find_piece
 
 end module passing_places

@@ -220,8 +220,8 @@ contains
     end if
     if (allocated(grid%pieces)) then
       kinds(n + 1)%values => grid%ratio
-      kinds(n + 2)%values => grid%stretch
-      kinds(n + 3)%values => grid%stretch_slope
+      kinds(n + 2)%values(1:s, 1:size(grid%drift)/s) => grid%drift
+      kinds(n + 3)%values(1:s, 1:size(grid%drift)/s) => grid%drift_slope
       n = n + 3
     end if
     kinds = kinds(:n)
@@ -317,8 +317,8 @@ contains
       samples), :, :)
     if (.not. allocated(grid%pieces)) return
     grid%ratio = grid%ratio(spread(1, 1, samples), :)
-    grid%stretch = grid%stretch(spread(1, 1, samples), :)
-    grid%stretch_slope = grid%stretch_slope(spread(1, 1, samples), :)
+    grid%drift = grid%drift(spread(1, 1, samples), :, :)
+    grid%drift_slope = grid%drift_slope(spread(1, 1, samples), :, :)
   end subroutine resize
 
   !> Takes terms at a crank angle.

@@ -14,13 +14,15 @@ module turn_grids
   use band_matrix, only: full_band
   use body_lumps, only: lump_offsets
   use border_rows, only: row_spring
+  use carried_bodies, only: add_carried_mass, carried_motion
   use chebyshev_series, only: chebyshev_slopes
+  use constants, only: pi, two_pi
   use coordinates, only: coordinate_rate
   use crank_laws, only: covered_range_t, half_of, positions_of
   use deformation_model, only: deformation_model_t
-  use elastic_linkages, only: elastic_linkage_t
+  use elastic_linkages, only: elastic_linkage_t, is_piece
   use dense_eigensolver, only: solve_dense
-  use errors, only: error_of_dead_point, error_of_numerics, error_t, set_error
+  use errors, only: error_of_dead_point, error_of_numerics, error_of_reach, error_t, set_error
   use fourier_transform, only: close_fourier, derivatives, fourier_plan_t, open_fourier
   use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
@@ -29,7 +31,7 @@ module turn_grids
   use linkages, only: linkage_t, normal_to
   use load_cases, only: case_count, find_unit_loads, load_case_t
   use moving_integrals, only: chord_functions, moving_integrals_t, new_moving_integrals
-  use moving_pieces, only: amplitude_scales, moving_ends, moving_piece_t, new_moving_piece, no_end
+  use moving_pieces, only: amplitude_scales, moving_piece_t, new_moving_piece
   use part_displacements, only: border_t, find_part_chords
   use part_forces, only: find_pull_forces, pull_forces_t
   use pin_displacements, only: body_displacement, chords_t
@@ -90,12 +92,13 @@ module turn_grids
     !> The same, of any other linkage: (samples of the range, terms) coefficients of all terms
     real(wp), allocatable :: series(:, :)
     real(wp) :: tail = 0.0_wp !! the highest of these, beside the size of their kind
-    !> What moves with the material of pieces between the end of a link and a block; not allocated:
-    !! all parts keep their lengths
+    !> What moves with the material of pieces of ways along which blocks slide; not allocated: there
+    !! are none
     type(moving_piece_t), allocatable :: pieces(:) !! (bodies)
     real(wp), allocatable :: ratio(:, :)    !! (samples, bodies) length by that of the tables
-    real(wp), allocatable :: stretch(:, :)  !! (samples, bodies) l'/l
-    real(wp), allocatable :: stretch_slope(:, :) !! (samples, bodies) (l'/l)'
+    real(wp), allocatable :: drift(:, :, :) !! (samples, 2, bodies) rates of the ends of pieces
+                                            !! along the link, by the length
+    real(wp), allocatable :: drift_slope(:, :, :) !! their derivatives
     integer, allocatable :: curve(:, :)     !! (2, bodies) numbers of the deformations that are
                                             !! curves of held ends; with pieces only
     real(wp), allocatable :: rotation(:, :) !! (border, border) orthogonal: border unknowns as those
@@ -104,9 +107,8 @@ module turn_grids
     !> (samples, functions of the chord, border, bodies)
     real(wp), allocatable :: chord(:, :, :, :)
     real(wp), allocatable :: turn(:, :, :)      !! (samples, border, bodies) rotation of the chord
-    real(wp), allocatable :: pin(:, :, :, :)    !! (samples, 2, pins, border); behind the pins the
-                                                !! rotations of blocks that turn with links that
-                                                !! bend, and zeros
+    real(wp), allocatable :: pin(:, :, :, :)    !! (samples, 2, pins, border); behind the pins what
+                                                !! cuts carry, then its rotation at a unit arm
     real(wp), allocatable :: chord_slope(:, :, :, :) !! d/dθ2 of `chord`
     real(wp), allocatable :: pin_slope(:, :, :, :)   !! d/dθ2 of `pin`
     real(wp), allocatable :: place(:, :, :)     !! (samples, 2, pins) of the rigid linkage [m]
@@ -120,8 +122,7 @@ module turn_grids
     real(wp), allocatable :: second_order(:, :, :, :)
     real(wp), allocatable :: load(:, :, :)      !! (samples, unknowns, cases) f of the unit loads
     real(wp), allocatable :: torque(:, :)       !! (samples, cases) of the rigid linkage [N m]
-    real(wp), allocatable :: pin_mass(:)        !! (pins) [kg], and of such blocks [kg m²]
-    integer, allocatable :: block_rotation(:)   !! (such blocks) numbers of their rotations
+    real(wp), allocatable :: pin_mass(:)        !! (pins) [kg], and of what is carried [kg] [kg m²]
     real(wp), allocatable :: rotary_inertia(:)  !! (bodies) ρI [kg m]
   end type turn_grid_t
 
@@ -130,8 +131,9 @@ contains
   !> The terms at all crank angles of a turn. The displacements are those of Ulker 2010 (2.74), of
   !! points of the rigid linkage. Bodies are the parts of its links, pins their points.
   !!
-  !! Errors: the crank cannot reach one of the angles; the parts and springs do not determine the
-  !! displacements; there are more of them than do, and no choice among them serves at all angles.
+  !! Errors: the crank cannot reach one of the angles; a block meets what its way is cut at; the
+  !! parts and springs do not determine the displacements; there are more of them than do, and no
+  !! choice among them serves at all angles.
   subroutine new_turn_grid(structure, model, samples, grid, error, backwards, range)
     class(structure_t), intent(in) :: structure      !! linkage and beams
     type(deformation_model_t), intent(in) :: model   !! own deformations of its bodies
@@ -163,17 +165,17 @@ contains
     if (allocated(grid%second_order)) then
       if (.not. any(abs(grid%second_order) > 0.0_wp)) deallocate (grid%second_order)
     end if
-    call find_slopes(grid)
+    call find_slopes(structure, grid, error)
   end subroutine new_turn_grid
 
-  !> Whether a body is a piece whose length changes.
+  !> Whether a body is a piece of a way along which blocks slide.
   pure function moves(grid, body) result(yes)
     type(turn_grid_t), intent(in) :: grid
     integer, intent(in) :: body
     logical :: yes
 
     yes = allocated(grid%pieces)
-    if (yes) yes = grid%pieces(body)%moving_end /= no_end
+    if (yes) yes = grid%pieces(body)%way > 0
   end function moves
 
   !> 1, or −1 where the crank turns clockwise.
@@ -250,7 +252,7 @@ contains
     end associate
     call number_deformations(here%border, grid)
     call start_pieces(structure, here%border, grid)
-    call start_blocks(structure%elastic, grid)
+    call start_carried(structure%elastic, grid)
     if (.not. allocated(grid%weighted)) return
     n = size(here%border%numbers%rows)
     if (n == grid%border .and. all(grid%deformed(:n) > 0)) return
@@ -258,39 +260,38 @@ contains
     if (.not. allocated(error)) call find_rotation(structure, here, grid, error)
   end subroutine start_grid
 
-  !> Room for what moves with the material of pieces whose lengths change.
+  !> Room for what moves with the material of pieces.
   pure subroutine start_pieces(structure, border, grid)
     class(structure_t), intent(in) :: structure
     type(border_t), intent(in) :: border
     type(turn_grid_t), intent(inout) :: grid
 
-    integer :: moving(size(grid%integrals)), b
+    integer :: b, n
 
-    moving = moving_ends(structure%elastic)
-    if (all(moving == no_end)) return
-    allocate (grid%pieces(size(moving)))
-    do b = 1, size(moving)
-      if (moving(b) /= no_end) grid%pieces(b) = new_moving_piece(grid%model%links(b), moving(b))
-    end do
-    allocate (grid%ratio(grid%samples, size(moving)), source=1.0_wp)
-    allocate (grid%stretch, grid%stretch_slope, mold=grid%ratio)
+    associate (elastic => structure%elastic)
+      n = size(elastic%body)
+      if (.not. any(is_piece(elastic, [(b, b=1, n)]))) return
+      allocate (grid%pieces(n))
+      do b = 1, n
+        if (is_piece(elastic, b)) grid%pieces(b) = new_moving_piece(grid%model%links(b), &
+          elastic%way(b))
+      end do
+    end associate
+    allocate (grid%ratio(grid%samples, n), source=1.0_wp)
+    allocate (grid%drift(grid%samples, 2, n), grid%drift_slope(grid%samples, 2, n), source=0.0_wp)
     grid%curve = border%numbers%curve
   end subroutine start_pieces
 
-  !> Room for blocks that turn with links that bend.
-  pure subroutine start_blocks(elastic, grid)
+  !> Room for what cuts carry.
+  pure subroutine start_carried(elastic, grid)
     type(elastic_linkage_t), intent(in) :: elastic
     type(turn_grid_t), intent(inout) :: grid
 
-    logical :: turns(size(elastic%carried))
-
-    turns = elastic%carried%inertia > 0.0_wp .and. elastic%carried%rotation > 0
-    grid%block_rotation = pack(elastic%carried%rotation, turns)
-    if (.not. any(turns)) return
-    grid%pin_mass = [grid%pin_mass, pack(elastic%carried%inertia, turns)]
+    if (size(elastic%carried) == 0) return
+    grid%pin_mass = [grid%pin_mass, elastic%carried%mass, elastic%carried%inertia]
     deallocate (grid%pin)
     allocate (grid%pin(grid%samples, 2, size(grid%pin_mass), grid%border), source=0.0_wp)
-  end subroutine start_blocks
+  end subroutine start_carried
 
   !> What dampers pull in the motion of the rigid linkage, as a load case per ω2.
   pure subroutine add_damper_cases(grid)
@@ -353,11 +354,7 @@ contains
       do p = 1, size(chords%pin, 2)
         mass = mass + grid%pin_mass(p)*matmul(transpose(chords%pin(:, p, :)), chords%pin(:, p, :))
       end do
-      do p = 1, size(grid%block_rotation)
-        associate (turn => chords%rotation(grid%block_rotation(p):grid%block_rotation(p), :))
-          mass = mass + grid%pin_mass(size(chords%pin, 2) + p)*matmul(transpose(turn), turn)
-        end associate
-      end do
+      call add_carried_mass(here%elastic, here%pose, chords, mass)
     end do
     unit = 0.0_wp
     do i = 1, grid%border
@@ -375,7 +372,7 @@ contains
     real(wp), intent(in) :: length             !! [m]
     real(wp), intent(inout) :: functions(:, :) !! (functions of the chord, border)
 
-    real(wp) :: ratio, scale(1, size(grid%pieces(b)%flux))
+    real(wp) :: ratio, scale(1, size(grid%pieces(b)%slope, 1))
     integer :: i
 
     ratio = length/grid%model%links(b)%length
@@ -427,7 +424,8 @@ contains
   !> The terms at one crank angle, without the slopes of chords and pins; derivatives are with
   !! respect to θ2.
   !!
-  !! Errors: those of `load_parts`; the deformations chosen do not determine all others.
+  !! Errors: those of `load_parts`; the deformations chosen do not determine all others; a block has
+  !! passed what its way is cut at.
   subroutine take_pose(structure, pose, k, here, grid, error)
     class(structure_t), intent(in) :: structure
     type(pose_t), intent(in) :: pose          !! of the linkage that moves
@@ -443,19 +441,22 @@ contains
 
     coefficients = find_kinematic_coefficients(structure%linkage, pose)
     here%loads = find_unit_loads(structure%linkage, pose, coefficients)
-    call load_parts(structure, grid%model, pose, here, chords, error, in_motion=.true.)
+    call load_parts(structure, grid%model, pose, here, chords, error)
     if (.not. allocated(error) .and. allocated(grid%rotation) .and. here%border%is_new) &
       call set_error(error, error_of_numerics, no_choice)
     if (allocated(error)) return
     grid%rate(k, :) = coefficients%turn(here%elastic%body)
     grid%rate_slope(k, :) = coefficients%turn_slope(here%elastic%body)
     call take_chords(here%pose, chords, k, grid)
+    n = size(chords%pin, 2)
+    do b = 1, size(here%elastic%carried)
+      grid%pin(k, :, [n + b, n + size(here%elastic%carried) + b], :) = &
+        carried_motion(here%elastic, here%pose, chords, b)
+    end do
     n = size(here%border%numbers%rows)
     if (allocated(grid%weighted)) grid%weighted(k, :n, :) = chords%weighted
-    do b = 1, size(grid%integrals)
-      if (moves(grid, b)) grid%ratio(k, b) = here%elastic%linkage%bodies(b)%length/ &
-        grid%model%links(b)%length
-    end do
+    if (allocated(grid%pieces)) call take_lengths(here%elastic, k, grid, error)
+    if (allocated(error)) return
     call take_forces(here%part_forces%axial, k, grid)
     call find_unit_reactions(structure%linkage, spread(0, 1, size(structure%linkage%bodies)), &
       pose, coefficients, unit)
@@ -472,6 +473,40 @@ contains
     if (size(grid%dampers) > 0) call take_dampers(structure%linkage, pose, coefficients, chords, &
       k, here, grid)
   end subroutine take_pose
+
+  !> Lengths of pieces at one crank angle. The first one tells where they begin and end, the same at
+  !! all others.
+  pure subroutine take_lengths(elastic, k, grid, error)
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    integer, intent(in) :: k
+    type(turn_grid_t), intent(inout) :: grid
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: b
+
+    do b = 1, size(grid%integrals)
+      if (.not. moves(grid, b)) cycle
+      associate (piece => grid%pieces(b), part => elastic%linkage%bodies(b))
+        grid%ratio(k, b) = part%length/grid%model%links(b)%length
+        if (k == 1) piece%points = [part%first_pin, part%last_pin]
+        if (any(piece%points /= [part%first_pin, part%last_pin])) then
+          call refuse_meeting(elastic%body(b), error)
+          return
+        end if
+        piece%slides = [any(elastic%contact == part%first_pin), any(elastic%contact == &
+          part%last_pin)]
+      end associate
+    end do
+  end subroutine take_lengths
+
+  !> A block meets what its way is cut at.
+  pure subroutine refuse_meeting(body, error)
+    integer, intent(in) :: body !! number of the link
+    type(error_t), allocatable, intent(out) :: error
+
+    call set_error(error, error_of_reach, "a block meets a pin, a mass, the place of a force "// &
+      "or another block along it", body=body)
+  end subroutine refuse_meeting
 
   !> What the dampers do at one crank angle.
   pure subroutine take_dampers(linkage, pose, coefficients, chords, k, here, grid)
@@ -512,8 +547,6 @@ contains
     grid%direction(k, :, :) = pose%direction
     grid%turn(k, :, :) = chords%turn
     grid%pin(k, :, :size(chords%pin, 2), :) = chords%pin
-    if (allocated(grid%block_rotation)) grid%pin(k, 1, size(chords%pin, 2) + 1:, :) = &
-      chords%rotation(grid%block_rotation, :)
     do b = 1, size(grid%integrals)
       call take_chord(grid%model%links(b), chords, b, grid%chord(k, :, :, b))
     end do
@@ -546,10 +579,13 @@ contains
   end subroutine take_chord
 
   !> Derivatives of the motion of chords and pins over the turn.
-  subroutine find_slopes(grid)
+  !!
+  !! Errors: a block meets what its way is cut at between samples.
+  subroutine find_slopes(structure, grid, error)
+    class(structure_t), intent(in) :: structure
     type(turn_grid_t), intent(inout) :: grid
+    type(error_t), allocatable, intent(out) :: error
 
-    real(wp), allocatable :: second(:, :)
     integer :: b, i, p
 
     allocate (grid%chord_slope, mold=grid%chord)
@@ -562,13 +598,40 @@ contains
         call find_slope(grid, grid%pin(:, :, p, i), grid%pin_slope(:, :, p, i))
       end do
     end do
-    if (allocated(grid%pieces)) then
-      allocate (second, mold=grid%ratio)
-      call find_slope(grid, grid%ratio, grid%stretch, second)
-      grid%stretch = grid%stretch/grid%ratio
-      grid%stretch_slope = second/grid%ratio - grid%stretch**2
-    end if
+    if (allocated(grid%pieces)) call find_drifts(structure%elastic, grid, error)
   end subroutine find_slopes
+
+  !> Rates of the ends of pieces along the link.
+  subroutine find_drifts(elastic, grid, error)
+    type(elastic_linkage_t), intent(in) :: elastic
+    type(turn_grid_t), intent(inout) :: grid
+    type(error_t), allocatable, intent(out) :: error
+
+    real(wp), dimension(grid%samples, size(grid%pieces)) :: first, second
+    real(wp) :: moved(grid%samples, 2), step
+    integer :: b, end
+
+    call find_slope(grid, grid%ratio, first, second)
+    moved = 0.0_wp
+    step = merge(two_pi, pi*half_of(grid%range), grid%range%is_turn)/grid%samples
+    do b = 1, size(grid%pieces)
+      if (.not. moves(grid, b)) cycle
+      ! The least length between samples, where one is near.
+      if (any(abs(first(:, b)) < step*second(:, b) .and. 2.0_wp*grid%ratio(:, b)*second(:, b) <= &
+        first(:, b)**2)) then
+        call refuse_meeting(elastic%body(b), error)
+        return
+      end if
+      if (grid%pieces(max(b - 1, 1))%way /= grid%pieces(b)%way) moved = 0.0_wp
+      do end = 1, 2
+        if (end == 2) moved = moved + reshape([first(:, b), second(:, b)], [grid%samples, 2])
+        if (.not. grid%pieces(b)%slides(end)) cycle
+        grid%drift(:, end, b) = moved(:, 1)/grid%ratio(:, b)
+        grid%drift_slope(:, end, b) = (moved(:, 2) - grid%drift(:, end, b)*first(:, &
+          b))/grid%ratio(:, b)
+      end do
+    end do
+  end subroutine find_drifts
 
   !> Derivatives with respect to the position of the crank, over the positions of a grid.
   subroutine find_slope(grid, values, slope, second)

@@ -2,7 +2,6 @@
 !! the crank turns fully.
 module response_linkage_checks
   use diagnostics, only: add_error, diagnostics_t, has_errors
-  use elastic_linkages, only: is_piece
   use errors, only: error_of_reach
   use four_bar_limits, only: reach_t
   use full_turns, only: turns_fully
@@ -112,22 +111,13 @@ contains
 
     character(len=:), allocatable :: rigid_link
     logical :: thick
-    integer :: i
 
     reason = ""
     associate (link => model%sliders(number)%link, elastic => mechanism%elastic)
       rigid_link = "'"//model%links(link)%name%text//"' to be rigid"
       thick = any((elastic%beams%shear_stiffness > 0.0_wp .or. elastic%beams%rotary_inertia > &
         0.0_wp) .and. elastic%body == mechanism%linkage%sliders(number)%body)
-      if (count(model%sliders%link == link) > 1) then
-        reason = " under several blocks; expected one block, or "//rigid_link
-      else if (any(model%masses%link == link)) then
-        reason = " with a MASS along it; expected PINMASS cards, or "//rigid_link
-      else if (count(elastic%body == mechanism%linkage%sliders(number)%body .and. &
-        is_piece(elastic, [(i, i=1, size(elastic%body))])) > 2) then
-        reason = " with pins along the way of the block; expected them at its ends, or "// &
-          rigid_link
-      else if (model%sliders(number)%turned_link > 0) then
+      if (model%sliders(number)%turned_link > 0) then
         ! Its couple makes the curvature jump, and the jump moves through the material.
         reason = " and turns with '"//model%links(model%sliders(number)%turned_link)%name%text// &
           "'; expected a block that turns on it, or "//rigid_link
