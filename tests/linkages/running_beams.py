@@ -66,13 +66,13 @@ class Running:
     clamped: (link, end) with no rotation;  masses: pin -> mass;  welds: pairs of (link, end) that turn together
     pulls:   dicts with stiffness, rest, tension, damping and ends=(pin or place, pin or place),
              or turning=((link, end), (link, end) or None) for couples
-    block:   dict with the pin of a block on a straight chain of links, `on` (their numbers, in order) and its moment of inertia,
+    blocks:  dicts with the pin of a block on a straight chain of links, `on` (their numbers, in order) and its moment of inertia,
              which turns with the chain: the place under it passes from link to link, and a multiplier at every sample keeps the
              block on the chain
     """
 
-    def __init__(self, speed, pins, grounds, links, clamped, slides=None, masses=None, pulls=(), welds=(), block=None):
-        self.block = block
+    def __init__(self, speed, pins, grounds, links, clamped, slides=None, masses=None, pulls=(), welds=(), blocks=()):
+        self.blocks = list(blocks)
         self.speed, self.pins, self.grounds, self.links = speed, dict(pins), grounds, links
         self.slides, self.masses, self.pulls = slides or {}, masses or {}, list(pulls)
         self.welds = list(welds)
@@ -135,25 +135,25 @@ class Running:
             rows[:, 6 + k, j] = 1.0
         return rows
 
-    def block_rows(self):
-        """Of the block and the chain under it: number of the link, place along it, rows of the distance of both across the chain,
+    def block_rows(self, block):
+        """Of a block and the chain under it: number of the link, place along it, rows of the distance of both across the chain,
         of how far the block is ahead, and of the rotation of the chain there."""
-        chain = [self.links[i] for i in self.block["on"]]
+        chain = [self.links[i] for i in block["on"]]
         ends = np.cumsum([0.0] + [link.length for link in chain])
-        e, place = chain[0].e, self.pins[self.block["pin"]]
+        e, place = chain[0].e, self.pins[block["pin"]]
         along = np.einsum("ka,ka->k", e, place - self.pins[chain[0].ends[0]])
         which = np.clip(np.searchsorted(ends, along) - 1, 0, len(chain) - 1)
-        pin, normal = self.pin_rows(self.block["pin"]), e @ TURN.T
+        pin, normal = self.pin_rows(block["pin"]), e @ TURN.T
         across, ahead = (np.einsum("ka,kaj->kj", way, pin) for way in (normal, e))
         turn = np.zeros_like(across)
-        for at, i in enumerate(self.block["on"]):
+        for at, i in enumerate(block["on"]):
             rows = self.local_rows(i)
             for k in np.nonzero(which == at)[0]:
                 here = self.links[i].shape.at(along[k] - ends[at])
                 across[k] -= here["v"] @ rows[k]
                 ahead[k] -= here["u"] @ rows[k]
                 turn[k] = here["dv"] @ rows[k]
-        return np.array(self.block["on"])[which], along - ends[which], across, ahead, turn
+        return np.array(block["on"])[which], along - ends[which], across, ahead, turn
 
     def pull_rows(self, pull):
         """Length (or angle), its rate, row of the stretch, row across, direction."""
@@ -196,9 +196,9 @@ class Running:
         unknown += len(guides)
         index["torque"] = unknown
         unknown += 1 + len(self.welds)
-        if self.block:
-            index["block"], under = unknown, self.block_rows()
-            unknown += 1
+        under = [self.block_rows(block) for block in self.blocks]
+        index["blocks"] = unknown
+        unknown += len(self.blocks)
         matrix, right, row = np.zeros((n, unknown, unknown)), np.zeros((n, unknown)), 0
         couples = np.zeros((n, len(links)))
         forces = {p: np.zeros((n, 2)) for p in self.pins}
@@ -227,13 +227,13 @@ class Running:
             right[:, row + 2] = -moment - couples[:, i]
             if i == 0:
                 matrix[:, row + 2, index["torque"]] = 1.0
-            if self.block:
+            for k, (block, rows) in enumerate(zip(self.blocks, under)):
                 # The chain is pressed by -R across it, and turns the block.
-                here = under[0] == i
-                matrix[here, row:row + 2, index["block"]] = -(link.e @ TURN.T)[here]
-                matrix[here, row + 2, index["block"]] = -under[1][here]
+                here = rows[0] == i
+                matrix[here, row:row + 2, index["blocks"] + k] = -(link.e @ TURN.T)[here]
+                matrix[here, row + 2, index["blocks"] + k] = -rows[1][here]
                 if inertia:
-                    right[here, row + 2] += self.block["inertia"] * self.speed**2 * link.slope[here]
+                    right[here, row + 2] += block["inertia"] * self.speed**2 * link.slope[here]
             for k, ((first, _), (second, _)) in enumerate(self.welds):
                 matrix[:, row + 2, index["torque"] + 1 + k] = (i == first) * 1.0 - (i == second) * 1.0
             row += 3
@@ -247,8 +247,9 @@ class Running:
                             matrix[:, row + a, index[i, end] + a] = -1.0
                 if p in guides:
                     matrix[:, row + a, guides[p]] = (TURN @ self.slides[p])[a]
-                if self.block and p == self.block["pin"]:
-                    matrix[:, row + a, index["block"]] = (self.links[self.block["on"][0]].e @ TURN.T)[:, a]
+                for k, block in enumerate(self.blocks):
+                    if p == block["pin"]:
+                        matrix[:, row + a, index["blocks"] + k] = (self.links[block["on"][0]].e @ TURN.T)[:, a]
                 right[:, row + a] = -forces[p][:, a]
                 if inertia:
                     right[:, row + a] += self.masses.get(p, 0.0) * self.speed**2 * self.acceleration[p][:, a]
@@ -262,8 +263,7 @@ class Running:
                       for e in link.ends)
             result.append([end + f0 * (link.length - x - (link.length**2 - x**2) / (2 * link.length)) +
                            f1 * (link.length**2 - x**2) / (2 * link.length) for x in link.shape.x])
-        if self.block:
-            self.press = found[:, index["block"]]
+        self.press = found[:, index["blocks"]:]
         return result, found[:, index["torque"]]
 
     def geometric(self, axial, pulls):
@@ -292,12 +292,15 @@ class Running:
         stiffness = self.geometric(axial, forces)
         matrix = np.zeros((n, m, n, m))
         load = np.zeros((n, m))
-        if self.block:
-            _, _, apart, ahead, turn = self.block_rows()
-            product = self.press[:, None, None] * ahead[:, :, None] * turn[:, None, :]
+        apart = []
+        for j, block in enumerate(self.blocks):
+            _, _, across, ahead, turn = self.block_rows(block)
+            apart.append(across)
+            product = self.press[:, j, None, None] * ahead[:, :, None] * turn[:, None, :]
             stiffness += product + product.transpose(0, 2, 1)
-            matrix += moves * self.block["inertia"] * speed**2 * np.einsum("ki,kl,lj->kilj", turn, d2, turn, optimize=True)
-            load -= self.block["inertia"] * speed**2 * self.links[self.block["on"][0]].slope[:, None] * turn
+            if block["inertia"]:
+                matrix += moves * block["inertia"] * speed**2 * np.einsum("ki,kl,lj->kilj", turn, d2, turn, optimize=True)
+                load -= block["inertia"] * speed**2 * self.links[block["on"][0]].slope[:, None] * turn
         for i, link in enumerate(self.links):
             shape, rows = link.shape, self.local_rows(i)
             mass = link.mass * (shape.integral("u", "u") + shape.integral("v", "v"))
@@ -332,8 +335,8 @@ class Running:
                 matrix += moves * pull["damping"] * speed * np.einsum("ki,kl,lj->kilj", row, d, row, optimize=True)
         for k in range(n):
             matrix[k, :, k, :] += stiffness[k]
-        if self.block:
-            self.y = held(matrix.reshape(n * m, n * m), load.reshape(n * m), apart)
+        if self.blocks:
+            self.y = held(matrix.reshape(n * m, n * m), load.reshape(n * m), np.array(apart).swapaxes(0, 1))
         else:
             self.y = np.linalg.solve(matrix.reshape(n * m, n * m), load.reshape(n * m)).reshape(n, m)
         return self.y
@@ -437,21 +440,14 @@ class Running:
 
 
 def held(matrix, load, apart):
-    """Unknowns at the samples of which one sum, `apart`, is zero at each: it is solved for the unknown with the largest share in it."""
-    n, m = apart.shape
-    rest = np.zeros((n, m, m - 1))
-    for k in range(n):
-        last = np.argmax(np.abs(apart[k]))
-        others = np.delete(np.arange(m), last)
-        rest[k, others, np.arange(m - 1)] = 1.0
-        rest[k, last] = -apart[k, others] / apart[k, last]
-    matrix, right = matrix.reshape(n, m, n, m), np.zeros((n, m - 1))
-    whole = np.zeros((n, m - 1, n, m - 1))
-    for k in range(n):
-        right[k] = load.reshape(n, m)[k] @ rest[k]
-        for l in range(n):
-            whole[k, :, l] = rest[k].T @ matrix[k, :, l] @ rest[l]
-    z = np.linalg.solve(whole.reshape(n * (m - 1), n * (m - 1)), right.reshape(n * (m - 1))).reshape(n, m - 1)
+    """Unknowns at the samples of which some sums, `apart`, are zero at each: in a basis of those for which they are."""
+    n, constraints, m = apart.shape
+    # The last rows of an orthogonal matrix: they are across all sums.
+    rest = np.array([np.linalg.svd(sums)[2][constraints:].T for sums in apart])
+    matrix, right = matrix.reshape(n, m, n, m), np.einsum("ki,kia->ka", load.reshape(n, m), rest)
+    left = m - constraints
+    whole = np.einsum("kia,kilj,ljb->kalb", rest, matrix, rest, optimize=True)
+    z = np.linalg.solve(whole.reshape(n * left, n * left), right.reshape(n * left)).reshape(n, left)
     return np.einsum("kia,ka->ki", rest, z)
 
 

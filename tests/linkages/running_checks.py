@@ -66,6 +66,14 @@ GAUGE    g2 lever at=130
 GAUGE    g3 lever at=250
 GAUGE    g4 crank at=20
 """
+#: Two blocks on one lever with a mass: pieces between a pin, the mass, both blocks and the end.
+SECOND = """GROUND   O5 0 270
+LINK     rocker O5 P length=190 material=steel section=strip
+SLIDER   P lever mass=0.02
+MASS     lever 0.2 at=40
+BRANCH   P backward
+GAUGE    g5 rocker at=100
+"""
 OF_ENGINE = """GROUND   P  150 60
 DAMPER   da A P damping=40N*s/m
 DAMPER   dt A crank rod damping=0.05N*m*s/rad
@@ -122,7 +130,7 @@ def elbow(samples, speed, time, pulls, orders):
                    {"B": 0.05}, pulls, welds=[((1, 1), (2, 0))])
 
 
-def slotted_lever(samples, speed, time, elements):
+def slotted_lever(samples, speed, time, elements, second=False):
     """The lever in nodal elements that keep their places; the block passes from one to the next. Undamped, it has a moment of inertia."""
     a = 0.6 * crank_pin(samples, speed)
     foot = np.array([0.0, -0.15])
@@ -137,9 +145,17 @@ def slotted_lever(samples, speed, time, elements):
     links = [link("O2", "A", BAR, time, (2, 3))]
     links += [link(names[k], names[k + 1], BAR, time, (0, 0)) for k in range(elements)]
     links.append(link("C", "D", STRIP, time, (2, 3)))
-    return Running(abs(speed), pins, {"O2": (0, 0), "O4": foot}, links, {(0, 0)}, {"D": np.array([1.0, 0.0])},
-                   {"A": 0.03, "D": 0.2}, welds=[((k, 1), (k + 1, 0)) for k in range(1, elements)],
-                   block={"pin": "A", "on": list(range(1, elements + 1)), "inertia": 0.0 if time > 0 else BLOCK})
+    grounds, masses = {"O2": (0, 0), "O4": foot}, {"A": 0.03, "D": 0.2}
+    blocks = [{"pin": "A", "on": list(range(1, elements + 1)), "inertia": 0.0 if time > 0 else BLOCK}]
+    if second:
+        grounds["O5"] = (0, 0.27)
+        way = np.array(grounds["O5"]) - foot
+        pins["P"] = foot + (e @ way - np.sqrt(0.19**2 - way @ way + (e @ way)**2))[:, None] * e
+        links.append(link("O5", "P", STRIP, time, (2, 3)))
+        masses.update({"P": 0.02, f"L{elements // 8}": 0.2})
+        blocks.append(dict(blocks[0], pin="P", inertia=0.0))
+    return Running(abs(speed), pins, grounds, links, {(0, 0)}, {"D": np.array([1.0, 0.0])}, masses,
+                   welds=[((k, 1), (k + 1, 0)) for k in range(1, elements)], blocks=blocks)
 
 
 ENGINE_PULLS = [{"damping": 40.0, "ends": ("A", "P")}, {"damping": 0.05, "turning": ((1, 0), (0, 1))}, {"damping": 20.0, "ends": ("B", "P")}]
@@ -220,10 +236,10 @@ def lever(time):
     return LEVER.replace("OF_BLOCK", "" if time > 0 else f" inertia={BLOCK:g}kg*m2")
 
 
-def block_on_lever(program, folder, speed, time, meshes, samples):
+def block_on_lever(program, folder, speed, time, meshes, samples, second=False):
     """A block on a lever that bends, at the samples themselves: with more nodes the differences fall."""
     cards = HEAD.replace("0 to 357.1875 step 2.8125", " ".join(f"{360 * k / samples:.16g}" for k in range(samples))) + lever(time)
-    cards = cards.replace("TIME", f"{time:g}").replace("SPEEDS", f"{speed:g}")
+    cards = (cards + SECOND if second else cards).replace("TIME", f"{time:g}").replace("SPEEDS", f"{speed:g}")
     path = os.path.join(folder, "lever.deck")
     with open(path, "w", encoding="ascii") as file:
         file.write(cards + "END\n")
@@ -231,10 +247,13 @@ def block_on_lever(program, folder, speed, time, meshes, samples):
     tables = os.path.join(folder, "lever")
     rows, strains = table(tables, "response.dat"), table(tables, "strains.dat")
     for elements in meshes:
-        model = slotted_lever(samples, speed, time, elements)
+        model = slotted_lever(samples, speed, time, elements, second)
         model.solve()
         said = []
-        for end, (i, which) in {"A:crank": (0, 1), "C:lever": (elements, 1), "C:rod": (elements + 1, 0), "D:rod": (elements + 1, 1)}.items():
+        ends = {"A:crank": (0, 1), "C:lever": (elements, 1), "C:rod": (elements + 1, 0), "D:rod": (elements + 1, 1)}
+        if second:
+            ends["P:rocker"] = (elements + 2, 1)
+        for end, (i, which) in ends.items():
             here = np.array([[float(v) for v in r[3:6]] for r in rows if r[2] == end])
             moved, turned = model.displacement(model.links[i].ends[which]), model.rotation(i, which) * 180 / np.pi
             said.append(f"{end} {np.abs(here[:, :2] / 1e3 - moved).max() / np.linalg.norm(moved, axis=1).max():.1e} "
@@ -246,7 +265,7 @@ def block_on_lever(program, folder, speed, time, meshes, samples):
             bent = curvature * BAR / 2
             said.append(f"{g} {np.abs(here[:, 0] - axial).max() / np.abs(axial).max():.1e} "
                         f"{np.abs(here[:, 1] - bent).max() / np.abs(bent).max():.1e}")
-        print(f"block on a lever, {speed:g} rad/s, c = {time:g} s, {elements} elements, {samples} samples: " + ", ".join(said), flush=True)
+        print(f"{'two blocks and a mass' if second else 'block'} on a lever, {speed:g} rad/s, c = {time:g} s, {elements} elements, {samples} samples: " + ", ".join(said), flush=True)
 
 
 def slow_lever(program, folder, samples, elements):
@@ -323,6 +342,8 @@ def main():
         block_on_lever(options.program, folder, 8.0, 1e-3, (4, 8, 16), 65)
         block_on_lever(options.program, folder, 25.0, 1e-3, (8, 16), 65)
         block_on_lever(options.program, folder, 40.0, 0.0, (8, 16), 97)
+        block_on_lever(options.program, folder, 8.0, 1e-3, (8, 16), 65, second=True)
+        block_on_lever(options.program, folder, 15.0, 0.0, (8, 16), 65, second=True)
         slow_lever(options.program, folder, 65, 12)
         in_time(options.program, folder, options.samples, (6, 9))
         slow(options.program, folder, 97, (6, 9))
