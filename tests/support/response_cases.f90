@@ -6,6 +6,7 @@ module response_cases
   use deformation_model, only: deformation_model_t, new_deformation_model
   use divided_structures, only: divide
   use elastic_equations, only: elastic_terms_t, functions_of, load_at_speed
+  use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_t
   use four_bars, only: new_four_bar
   use fourier_transform, only: close_fourier, derivatives, fourier_plan_t, open_fourier
@@ -222,7 +223,7 @@ contains
 
   !> The periodic motion of a grid at a speed.
   subroutine steady_motion(grid, speed, damping, terms, slow, y, remainder, error)
-    type(turn_grid_t), intent(in) :: grid
+    type(turn_grid_t), intent(in), target :: grid
     real(wp), intent(in) :: speed, damping(:)
     type(elastic_terms_t), intent(in) :: terms
     integer, intent(in) :: slow !! coordinates
@@ -230,9 +231,10 @@ contains
     real(wp), intent(out) :: remainder
     type(error_t), allocatable, intent(out) :: error
 
-    type(fourier_plan_t) :: plan
-    type(slow_basis_t) :: basis
-    type(slow_motion_t) :: motion
+    type(fourier_plan_t), target :: plan
+    type(slow_basis_t), target :: basis
+    type(slow_motion_t), target :: motion
+    type(equation_at_speed_t) :: equation
     integer :: iterations
 
     allocate (y(grid%samples, grid%unknowns))
@@ -241,8 +243,9 @@ contains
     call open_fourier(grid%samples, plan)
     call new_slow_basis(grid, plan, plan, slow, damping, basis, error)
     if (.not. allocated(error)) call new_slow_motion(plan, basis, speed, 3, motion, error)
-    if (.not. allocated(error)) call solve_periodic(grid, plan, basis, motion, speed, damping, terms, &
-      load_at_speed(grid, speed), 1.0e-13_wp, y, iterations, remainder, error)
+    equation = equation_at_speed_t(grid, plan, basis, motion, speed, terms, damping)
+    if (.not. allocated(error)) call solve_periodic(equation, load_at_speed(grid, speed), 1.0e-13_wp, y, iterations, &
+      remainder, error)
     call close_fourier(plan)
   end subroutine steady_motion
 

@@ -11,6 +11,7 @@ module critical_speeds
   use campbell_types, only: critical_t, gap_t
   use constants, only: two_pi
   use elastic_equations, only: load_at_speed
+  use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_of_numerics, error_t, set_error
   use floquet_exponents, only: find_floquet_modes, floquet_mode_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
@@ -23,7 +24,7 @@ module critical_speeds
   use multiplier_crossings, only: beside, crossing_t, find_crossings
   use resonance_growth, only: find_growth
   use refinements, only: refinement_t
-  use response_levels, only: damping_of, level_slot_t, level_t
+  use response_levels, only: level_slot_t, level_t, set_equation
   use response_peaks, only: find_peaks, sampled_deflections
   use response_types, only: no_damping, response_request_t, speed_response_t
   use stability_types, only: stability_request_t
@@ -228,7 +229,7 @@ contains
     real(wp) :: lack
 
     call find_growth(level, slow_number(level%grid, request%modes), candidate%speed, &
-      damping_of(request%damping, level%grid), request%terms, candidate%centre(1), &
+      request%damping, request%terms, candidate%centre(1), &
       candidate%square(1), 0.0_wp, huge(1.0_wp), growth, steady, lack, error)
     excitation = huge(1.0_wp)
     at_rest = maxval(sampled_deflections(level%grid, load_at_speed(level%grid, candidate%speed)))
@@ -396,50 +397,51 @@ contains
   !> The exponent of the crossing at a speed near it.
   subroutine try_speed(request, level, candidate, speed, trial)
     type(stability_request_t), intent(in) :: request
-    type(level_t), intent(in) :: level
+    type(level_t), intent(in), target :: level
     type(candidate_t), intent(in) :: candidate
     real(wp), intent(in) :: speed              !! |ω2| [rad/s]
     type(trial_t), intent(out) :: trial
 
-    type(fourier_plan_t) :: plan
-    type(turn_spectrum_t) :: spectrum
+    type(fourier_plan_t), target :: plan
+    type(turn_spectrum_t), target :: spectrum
+    type(equation_at_speed_t) :: equation
     type(angle_t), allocatable :: angle(:)
     type(floquet_mode_t), allocatable :: mode(:)
     integer, allocatable :: wanted(:)
     type(error_t), allocatable :: error
-    real(wp), allocatable :: damping(:)
     real(wp) :: apart
     integer :: slow, i, m
+    logical :: is_damped
 
     trial%speed = speed
     if (was_interrupted()) return
     slow = slow_number(level%grid, request%modes)
-    damping = damping_of(request%damping, level%grid)
     call open_fourier(level%grid%samples, plan)
     attempt: block
       call find_spectrum(level, plan, slow, speed, spectrum, error)
       if (allocated(error)) exit attempt
+      call set_equation(level, plan, spectrum%motion, speed, request%damping, request%terms, &
+        equation)
+      is_damped = any(equation%damping > 0.0_wp)
       angle = angles_of(spectrum%mode, spectrum%number, speed, request%modes + beside)
       if (size(angle) == 0) exit attempt
       m = nearest_to_one(angle, candidate%crossing%angle%rate)
       ! Of a pair on the circle one tells of both.
       wanted = pack([(i, i=1, size(spectrum%number))], spectrum%number == m)
-      if (all(damping <= 0.0_wp)) wanted = [growing_mode(spectrum%mode, spectrum%number, m)]
+      if (.not. is_damped) wanted = [growing_mode(spectrum%mode, spectrum%number, m)]
       allocate (mode(size(wanted)))
-      call find_floquet_modes(level%grid, plan, level%basis(slow), spectrum%motion, speed, &
-        damping, request%terms, max(solved_to*request%accuracy/two_pi, least_change), &
+      call find_floquet_modes(equation, max(solved_to*request%accuracy/two_pi, least_change), &
         spectrum%mode, wanted, mode)
       if (any(mode%change > far)) exit attempt
       trial%turns = abs(aimag(mode(1)%exponent))
       trial%change = maxval(mode%change)
-      if (any(damping > 0.0_wp)) trial%centre = sum(real(mode%exponent))/size(mode)
+      if (is_damped) trial%centre = sum(real(mode%exponent))/size(mode)
       ! A number that is real within its error is real, and so is one far from the centre.
       apart = abs(real(mode(1)%exponent) - trial%centre)
       if (trial%turns <= max(on_axis, many*trial%change, real_share*apart)) then
         trial%turns = 0.0_wp
         trial%apart = apart
-        if (any(damping > 0.0_wp) .and. trial%apart < solved_to_turns) trial%alone = &
-          real(mode(1)%exponent)
+        if (is_damped .and. trial%apart < solved_to_turns) trial%alone = real(mode(1)%exponent)
       end if
       trial%turns = sign(trial%turns, mode(1)%action)
       call find_mean(level, slow, speed, angle(m)%rate*speed, candidate%crossing%mode, trial%mean)
@@ -507,7 +509,7 @@ contains
       real(wp), allocatable :: growth(:, :, :), steady(:, :, :)
 
       call find_growth(on, slow_number(on%grid, request%modes), candidate%speed, &
-        damping_of(request%damping, on%grid), request%terms, candidate%centre(number), &
+        request%damping, request%terms, candidate%centre(number), &
         candidate%square(number), candidate%change, max(solved_to*request%accuracy, &
         least_change), growth, steady, lack, critical%fault)
       if (allocated(critical%fault)) return

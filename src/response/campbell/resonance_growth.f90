@@ -11,11 +11,13 @@
 module resonance_growth
   use constants, only: two_pi
   use elastic_equations, only: elastic_terms_t, load_at_speed
+  use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
   use kinds, only: wp
   use periodic_solver, only: approximate_solution, solve_periodic
-  use response_levels, only: level_t
+  use response_levels, only: level_t, set_equation
+  use response_types, only: link_damping_t
   use slow_motions, only: new_slow_motion, slow_motion_t
   implicit none (type, external)
   private
@@ -39,12 +41,12 @@ contains
   !! state; and the errors of both by the extrapolation, estimated.
   !!
   !! Errors: iterations do not converge; the slow motion grows too much.
-  subroutine find_growth(level, slow, speed, damping, terms, centre, square, doubt, tolerance, &
+  subroutine find_growth(level, slow, speed, dampings, terms, centre, square, doubt, tolerance, &
     growth, steady, lack, error)
-    type(level_t), intent(in) :: level               !! with this many slow coordinates
+    type(level_t), intent(in), target :: level       !! with this many slow coordinates
     integer, intent(in) :: slow
     real(wp), intent(in) :: speed                    !! |ω2|, critical [rad/s]
-    real(wp), intent(in) :: damping(:)               !! (unknowns) c [s]
+    type(link_damping_t), intent(in) :: dampings(:)  !! as for `damping_of`
     type(elastic_terms_t), intent(in) :: terms
     real(wp), intent(in) :: centre                   !! σ0, per radian of the crank
     real(wp), intent(in) :: square                   !! κ²; below 0: exponents are `σ0 ± i|κ|`
@@ -59,8 +61,9 @@ contains
                                                      !! of solutions and exponents
     type(error_t), allocatable, intent(out) :: error !! why there is none
 
-    type(fourier_plan_t) :: plan
-    type(slow_motion_t) :: motion
+    type(fourier_plan_t), target :: plan
+    type(slow_motion_t), target :: motion
+    type(equation_at_speed_t) :: equation
     real(wp), dimension(level%grid%samples, level%grid%unknowns) :: load, y
     real(wp), dimension(level%grid%samples, level%grid%unknowns, 3) :: odd, even
     real(wp) :: eta(3), remainder
@@ -77,14 +80,13 @@ contains
     attempt: block
       call new_slow_motion(plan, level%basis(slow), speed, stages, motion, error)
       if (allocated(error)) exit attempt
+      call set_equation(level, plan, motion, speed, dampings, terms, equation)
       do i = 1, 3
         do side = -1, 1, 2
-          call approximate_solution(plan, level%basis(slow), motion, speed, damping, load, y, &
-            centre + side*eta(i))
+          call approximate_solution(equation, load, y, centre + side*eta(i))
           if (tolerance < 1.0_wp) then
-            call solve_periodic(level%grid, plan, level%basis(slow), motion, speed, damping, &
-              terms, load, tolerance, y, iterations, remainder, error, exponent=centre + &
-              side*eta(i))
+            call solve_periodic(equation, load, tolerance, y, iterations, remainder, error, &
+              exponent=centre + side*eta(i))
             if (allocated(error)) exit attempt
             lack = max(lack, extrapolating*remainder)
           end if

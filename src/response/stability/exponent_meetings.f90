@@ -23,7 +23,7 @@ module exponent_meetings
     !> Sum of the exponents and `−(σ1 − σ2)²`.
     subroutine evaluate_i(self, place, total, square, good)
       import :: exponent_pair_t, wp
-      class(exponent_pair_t), intent(inout) :: self
+      class(exponent_pair_t), intent(inout), target :: self
       real(wp), intent(in) :: place          !! of the parameter
       complex(wp), intent(out) :: total, square
       logical, intent(out) :: good           !! they were found

@@ -13,16 +13,15 @@
 !! their partner at −σ̄.
 module floquet_exponents
   use constants, only: two_pi
-  use elastic_equations, only: add_damping_parts, elastic_terms_t, equation_parts
+  use elastic_equations, only: add_damping_parts, equation_parts
+  use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_t
-  use fourier_transform, only: fourier_plan_t
   use interruption, only: was_interrupted
   use kinds, only: wp
   use periodic_solver, only: add_slow, complete_solution, slow_part
   use quadratic_pencil, only: find_pencil_modes
   use slow_motions, only: slow_basis_t, slow_mode_shape, slow_mode_t, slow_modes, slow_motion_t, &
     solve_slow_shifted
-  use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
 
@@ -121,15 +120,8 @@ contains
 
   !> Modes of the whole equation that belong to modes of the slow motion. They are found sooner if
   !! they are known from other orders or samples.
-  subroutine find_floquet_modes(grid, plan, basis, motion, speed, damping, terms, tolerance, &
-    slow, wanted, modes, known)
-    type(turn_grid_t), intent(in) :: grid
-    type(fourier_plan_t), intent(in) :: plan   !! for its samples
-    type(slow_basis_t), intent(in) :: basis    !! of this grid
-    type(slow_motion_t), intent(in) :: motion  !! at this speed, with as many steps as samples
-    real(wp), intent(in) :: speed              !! ω2 [rad/s]
-    real(wp), intent(in) :: damping(:)         !! (unknowns) c [s]
-    type(elastic_terms_t), intent(in) :: terms
+  subroutine find_floquet_modes(equation, tolerance, slow, wanted, modes, known)
+    type(equation_at_speed_t), intent(in) :: equation !! its motion with as many steps as samples
     real(wp), intent(in) :: tolerance          !! of the last change of an exponent; where it is not
                                                !! reached, `change` says so
     type(slow_mode_t), intent(in) :: slow(:)   !! all modes of the slow motion
@@ -141,32 +133,23 @@ contains
 
     do i = 1, size(wanted)
       if (present(known)) then
-        call refine(grid, plan, basis, motion, speed, damping, terms, tolerance, slow, wanted(i), &
-          modes(i), known=known(i))
+        call refine(equation, tolerance, slow, wanted(i), modes(i), known=known(i))
       else
-        call refine(grid, plan, basis, motion, speed, damping, terms, tolerance, slow, wanted(i), &
-          modes(i))
+        call refine(equation, tolerance, slow, wanted(i), modes(i))
       end if
     end do
   end subroutine find_floquet_modes
 
   !> Two modes of the whole equation together: where multipliers meet, the square of the difference
   !! of their exponents is found as well as elsewhere, each by itself is not.
-  subroutine find_floquet_pair(grid, plan, basis, motion, speed, damping, terms, slow, pair)
-    type(turn_grid_t), intent(in) :: grid
-    type(fourier_plan_t), intent(in) :: plan   !! for its samples
-    type(slow_basis_t), intent(in) :: basis    !! of this grid
-    type(slow_motion_t), intent(in) :: motion  !! at this speed, with as many steps as samples
-    real(wp), intent(in) :: speed              !! ω2 [rad/s]
-    real(wp), intent(in) :: damping(:)         !! (unknowns) c [s]
-    type(elastic_terms_t), intent(in) :: terms
+  subroutine find_floquet_pair(equation, slow, pair)
+    type(equation_at_speed_t), intent(in) :: equation !! its motion with as many steps as samples
     type(slow_mode_t), intent(in) :: slow(:)   !! all modes of the slow motion
     type(floquet_pair_t), intent(inout) :: pair !! gets its exponents
 
     type(floquet_mode_t) :: mode
 
-    call refine(grid, plan, basis, motion, speed, damping, terms, 0.0_wp, slow, pair%mode(1), &
-      mode, pair)
+    call refine(equation, 0.0_wp, slow, pair%mode(1), mode, pair)
     pair%applications = mode%applications
   end subroutine find_floquet_pair
 
@@ -174,15 +157,8 @@ contains
   !! the largest growth of any. Only modes count whose vibrations the samples resolve.
   !!
   !! Errors: the multipliers of the slow motion do not converge.
-  subroutine find_nearest_mode(grid, plan, basis, motion, speed, damping, terms, near, mode, &
-    growth, error)
-    type(turn_grid_t), intent(in) :: grid
-    type(fourier_plan_t), intent(in) :: plan   !! for its samples
-    type(slow_basis_t), intent(in) :: basis    !! of this grid
-    type(slow_motion_t), intent(in) :: motion  !! at this speed, with as many steps as samples
-    real(wp), intent(in) :: speed              !! ω2 [rad/s]
-    real(wp), intent(in) :: damping(:)         !! (unknowns) c [s]
-    type(elastic_terms_t), intent(in) :: terms
+  subroutine find_nearest_mode(equation, near, mode, growth, error)
+    type(equation_at_speed_t), intent(in) :: equation !! its motion with as many steps as samples
     real(wp), intent(in) :: near               !! nearer multipliers are found from the whole
                                                !! equation
     type(floquet_mode_t), intent(out) :: mode  !! with all applications
@@ -196,9 +172,9 @@ contains
     integer :: nearest, growing
 
     growth = 0.0_wp
-    call slow_modes(basis, motion, slow, error)
+    call slow_modes(equation%basis, equation%motion, slow, error)
     if (allocated(error)) return
-    resolved = slow%frequency <= abs(speed)*motion%steps/resolved_samples
+    resolved = slow%frequency <= abs(equation%speed)*equation%motion%steps/resolved_samples
     if (.not. any(resolved)) resolved = slow%frequency <= minval(slow%frequency)
     nearest = minloc(abs(1.0_wp - exp(two_pi*slow%exponent)), dim=1, mask=resolved)
     call take(nearest, abs(1.0_wp - exp(two_pi*slow(nearest)%exponent)) < near, mode)
@@ -221,8 +197,7 @@ contains
       mode%frequency = slow(number)%frequency
       mode%change = of_slow_motion
       if (.not. whole) return
-      call refine(grid, plan, basis, motion, speed, damping, terms, rough_change, slow, number, &
-        mode)
+      call refine(equation, rough_change, slow, number, mode)
       ! Iterations that lead elsewhere say nothing.
       if (abs(mode%exponent - slow(number)%exponent) <= farthest .and. &
         mode%change <= farthest) return
@@ -259,14 +234,8 @@ contains
   end function expanded
 
   !> A mode of the whole equation, or two together.
-  subroutine refine(grid, plan, basis, motion, speed, damping, terms, tolerance, slow, wanted, &
-    mode, pair, known)
-    type(turn_grid_t), intent(in) :: grid
-    type(fourier_plan_t), intent(in) :: plan
-    type(slow_basis_t), intent(in) :: basis
-    type(slow_motion_t), intent(in) :: motion
-    real(wp), intent(in) :: speed, damping(:)
-    type(elastic_terms_t), intent(in) :: terms
+  subroutine refine(equation, tolerance, slow, wanted, mode, pair, known)
+    type(equation_at_speed_t), intent(in) :: equation
     real(wp), intent(in) :: tolerance          !! of the last change
     type(slow_mode_t), intent(in) :: slow(:)
     integer, intent(in) :: wanted              !! its number
@@ -278,13 +247,13 @@ contains
     complex(wp), allocatable :: values(:), vectors(:, :), weights(:), partner_weights(:)
     complex(wp) :: fixed, expected, followed, followed_partner, second
     complex(wp) :: square, square_before
-    real(wp), dimension(grid%samples, 2*grid%unknowns) :: residual, correction
+    real(wp), dimension(equation%grid%samples, 2*equation%grid%unknowns) :: residual, correction
     real(wp) :: error
     complex(wp) :: here
     integer :: idle, number, p, partner, round
     logical :: grew, is_damped
 
-    is_damped = any(damping > 0.0_wp)
+    is_damped = any(equation%damping > 0.0_wp)
     mode%exponent = slow(wanted)%exponent
     mode%change = huge(1.0_wp)
     if (present(pair)) pair%change = huge(1.0_wp)
@@ -366,8 +335,8 @@ contains
       integer :: i, waves, kind
       logical :: added
 
-      allocate (space%vector(grid%samples, 2*grid%unknowns, most_vectors), &
-        space%parts(grid%samples, 2*grid%unknowns, 0:2, most_vectors), &
+      allocate (space%vector(equation%grid%samples, 2*equation%grid%unknowns, most_vectors), &
+        space%parts(equation%grid%samples, 2*equation%grid%unknowns, 0:2, most_vectors), &
         space%form(most_vectors, most_vectors, 0:2))
       added = .false.
       if (present(pair)) then
@@ -381,10 +350,10 @@ contains
         end if
       end if
       if (present(known)) call add_vector(known%motion, added)
-      if (space%number < 2 .and. .not. present(known)) call add_vector(expanded(basis, motion, &
-        slow(wanted), .false., 0), added)
-      if (present(pair) .and. space%number < 2) call add_vector(expanded(basis, motion, &
-        slow(pair%mode(2)), pair%conjugate, pair%waves), added)
+      if (space%number < 2 .and. .not. present(known)) call add_vector(expanded(equation%basis, &
+        equation%motion, slow(wanted), .false., 0), added)
+      if (present(pair) .and. space%number < 2) call add_vector(expanded(equation%basis, &
+        equation%motion, slow(pair%mode(2)), pair%conjugate, pair%waves), added)
       do i = 1, size(slow)
         do kind = 1, 2
           if (kind == 2 .and. .not. slow(i)%is_complex) cycle
@@ -394,7 +363,8 @@ contains
           if (is_second(i, kind, waves)) cycle
           if (abs(there + cmplx(0.0_wp, waves, wp) - mode%exponent) > together) cycle
           if (space%number == most_near) exit
-          call add_vector(expanded(basis, motion, slow(i), kind == 2, waves), added)
+          call add_vector(expanded(equation%basis, equation%motion, slow(i), kind == 2, waves), &
+            added)
         end do
       end do
       space%near = unit_matrix(space%number)
@@ -458,7 +428,7 @@ contains
       if (allocated(pair%known)) deallocate (pair%known)
       if (1.0_wp - abs(dot_product(weights, partner_weights))/(norm2(abs(weights))* &
         norm2(abs(partner_weights))) < nearly_one) return
-      allocate (pair%known(grid%samples, 2*grid%unknowns, 2))
+      allocate (pair%known(equation%grid%samples, 2*equation%grid%unknowns, 2))
       pair%known(:, :, 1) = motion_of(weights)
       pair%known(:, :, 2) = motion_of(partner_weights)
     end subroutine remember
@@ -493,8 +463,10 @@ contains
         end do
         if (length < within) k = k - 1
       end do
-      allocate (vector(grid%samples, 2*grid%unknowns, k), parts(grid%samples, 2*grid%unknowns, &
-        0:2, k), solved(grid%samples, 2*grid%unknowns, 0:3, merge(k, 0, space%is_harmonic)))
+      associate (samples => equation%grid%samples, unknowns => equation%grid%unknowns)
+        allocate (vector(samples, 2*unknowns, k), parts(samples, 2*unknowns, 0:2, k), &
+          solved(samples, 2*unknowns, 0:3, merge(k, 0, space%is_harmonic)))
+      end associate
       vector = 0.0_wp
       parts = 0.0_wp
       solved = 0.0_wp
@@ -530,7 +502,7 @@ contains
     subroutine make_harmonic
       integer :: k
 
-      allocate (space%solved(grid%samples, 2*grid%unknowns, 0:3, most_vectors), &
+      allocate (space%solved(equation%grid%samples, 2*equation%grid%unknowns, 0:3, most_vectors), &
         space%harmonic(most_vectors, most_vectors, 0:2))
       space%is_harmonic = .true.
       do k = 1, space%number
@@ -566,7 +538,7 @@ contains
     function doubt()
       real(wp) :: doubt
 
-      real(wp) :: motion(grid%samples, 2*grid%unknowns), product, slope, bend
+      real(wp) :: motion(equation%grid%samples, 2*equation%grid%unknowns), product, slope, bend
 
       motion = motion_of(weights)
       product = sum_of_absolute_products(adjoint_residual(), correction - times( &
@@ -584,7 +556,7 @@ contains
     !> A vector of the space.
     function motion_of(weights) result(z)
       complex(wp), intent(in) :: weights(:) !! of its vectors
-      real(wp) :: z(grid%samples, 2*grid%unknowns)
+      real(wp) :: z(equation%grid%samples, 2*equation%grid%unknowns)
 
       integer :: i
 
@@ -596,18 +568,21 @@ contains
 
     !> `L(σ)ᴴ v` of the partner's motion v: L at −σ̄, with damping that drives.
     function adjoint_residual() result(left)
-      real(wp) :: left(grid%samples, 2*grid%unknowns)
+      real(wp) :: left(equation%grid%samples, 2*equation%grid%unknowns)
 
-      real(wp) :: v(grid%samples, 2*grid%unknowns), parts(grid%samples, 2*grid%unknowns, 0:1)
+      real(wp) :: v(equation%grid%samples, 2*equation%grid%unknowns), &
+        parts(equation%grid%samples, 2*equation%grid%unknowns, 0:1)
       integer :: n
 
       call find_residual(-conjg(here), partner_weights, left)
       if (.not. is_damped) return
-      n = grid%unknowns
+      n = equation%grid%unknowns
       v = motion_of(partner_weights)
       parts = 0.0_wp
-      call add_damping_parts(grid, plan, speed, damping, v(:, :n), parts(:, :n, :))
-      call add_damping_parts(grid, plan, speed, damping, v(:, n + 1:), parts(:, n + 1:, :))
+      call add_damping_parts(equation%grid, equation%plan, equation%speed, equation%damping, &
+        v(:, :n), parts(:, :n, :))
+      call add_damping_parts(equation%grid, equation%plan, equation%speed, equation%damping, &
+        v(:, n + 1:), parts(:, n + 1:, :))
       left = left - 2.0_wp*(parts(:, :, 0) - times(conjg(here), parts(:, :, 1)))
     end function adjoint_residual
 
@@ -644,9 +619,10 @@ contains
       k = space%number + 1
       n = size(v, 2)/2
       space%vector(:, :, k) = v
-      call equation_parts(grid, plan, speed, damping, terms, v(:, :n), space%parts(:, :n, :, k))
-      call equation_parts(grid, plan, speed, damping, terms, v(:, n + 1:), &
-        space%parts(:, n + 1:, :, k))
+      call equation_parts(equation%grid, equation%plan, equation%speed, equation%damping, &
+        equation%terms, v(:, :n), space%parts(:, :n, :, k))
+      call equation_parts(equation%grid, equation%plan, equation%speed, equation%damping, &
+        equation%terms, v(:, n + 1:), space%parts(:, n + 1:, :, k))
       mode%applications = mode%applications + 1
       do p = 0, 2
         do i = 1, k
@@ -669,17 +645,17 @@ contains
       real(wp), intent(in) :: load(:, :)
       real(wp), intent(out) :: y(:, :)
 
-      real(wp), dimension(grid%samples, basis%number) :: part, part_imaginary, z, z_imaginary
+      real(wp), dimension(equation%grid%samples, equation%basis%number) :: part, part_imaginary, &
+        z, z_imaginary
       integer :: n
 
-      n = grid%unknowns
-      call slow_part(basis, load(:, :n), part)
-      call slow_part(basis, load(:, n + 1:), part_imaginary)
-      call solve_slow_shifted(plan, motion, fixed, part/speed**2, part_imaginary/speed**2, z, &
-        z_imaginary)
-      call complete_solution(plan, basis, speed, damping, load(:, :n), part, z, y(:, :n))
-      call complete_solution(plan, basis, speed, damping, load(:, n + 1:), part_imaginary, &
-        z_imaginary, y(:, n + 1:))
+      n = equation%grid%unknowns
+      call slow_part(equation%basis, load(:, :n), part)
+      call slow_part(equation%basis, load(:, n + 1:), part_imaginary)
+      call solve_slow_shifted(equation%plan, equation%motion, fixed, part/equation%speed**2, &
+        part_imaginary/equation%speed**2, z, z_imaginary)
+      call complete_solution(equation, load(:, :n), part, z, y(:, :n))
+      call complete_solution(equation, load(:, n + 1:), part_imaginary, z_imaginary, y(:, n + 1:))
     end subroutine approximate
 
     !> What a vector of the space leaves in the equation.
@@ -702,7 +678,7 @@ contains
     subroutine describe(weights)
       complex(wp), intent(in) :: weights(:)
 
-      real(wp), dimension(grid%samples, 2*grid%unknowns) :: z, first, second
+      real(wp), dimension(equation%grid%samples, 2*equation%grid%unknowns) :: z, first, second
       complex(wp) :: kinetic
       integer :: i
 
@@ -715,7 +691,7 @@ contains
       end do
       mode%motion = z
       kinetic = product_of(z, second)
-      mode%frequency = abs(speed)*norm2(z)/sqrt(max(real(kinetic), tiny(1.0_wp)))
+      mode%frequency = abs(equation%speed)*norm2(z)/sqrt(max(real(kinetic), tiny(1.0_wp)))
       mode%action = aimag(product_of(z, first) + 2.0_wp*mode%exponent*kinetic)/ &
         (2.0_wp*norm2(z)*sqrt(max(real(kinetic), tiny(1.0_wp))))
     end subroutine describe

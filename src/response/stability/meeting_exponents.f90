@@ -2,6 +2,7 @@
 !! motion, or by the whole equation.
 module meeting_exponents
   use constants, only: pi
+  use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_t
   use exponent_meetings, only: exponent_pair_t
   use floquet_exponents, only: find_floquet_modes, find_floquet_pair, floquet_mode_t, floquet_pair_t
@@ -10,7 +11,7 @@ module meeting_exponents
   use kinds, only: wp
   use multiplier_stations, only: left_of, plane_t, state_of
   use order_transfer, only: transferred_halves
-  use response_levels, only: damping_of, level_t
+  use response_levels, only: level_t, set_equation
   use response_types, only: no_damping
   use stability_types, only: stability_request_t
   use turn_spectra, only: find_spectrum, turn_spectrum_t
@@ -189,11 +190,12 @@ contains
 
   !> Sum and −(σ1 − σ2)² at a speed.
   subroutine evaluate(self, place, total, square, good)
-    class(meeting_pair_t), intent(inout) :: self
+    class(meeting_pair_t), intent(inout), target :: self
     real(wp), intent(in) :: place               !! |ω2| [rad/s]
     complex(wp), intent(out) :: total, square
     logical, intent(out) :: good
 
+    type(equation_at_speed_t) :: equation
     complex(wp) :: exponent(2)
     real(wp) :: change
     integer :: attempt, mode(2), waves
@@ -213,6 +215,8 @@ contains
     call restore
     ! Motions near by, or each by itself, may lead to other modes: then the other way.
     if (self%whole) then
+      call set_equation(self%level, self%plan, self%spectrum%motion, place, self%request%damping, &
+        self%request%terms, equation)
       each_first = abs(exponent(1) - exponent(2)) > apart_enough
       do attempt = 1, 3
         call restore
@@ -258,10 +262,8 @@ contains
         known = self%each(:n)
         known%exponent = slow(:n) + known%exponent - self%slow_each(:n)
       end if
-      call find_floquet_modes(self%level%grid, self%plan, self%level%basis(self%slow), &
-        self%spectrum%motion, place, damping_of(self%request%damping, self%level%grid), &
-        self%request%terms, max(0.25_wp*fine_change*abs(exponent(1) - exponent(2)), least_change), &
-        self%spectrum%mode, mode(:n), found(:n), known)
+      call find_floquet_modes(equation, max(0.25_wp*fine_change*abs(exponent(1) - exponent(2)), &
+        least_change), self%spectrum%mode, mode(:n), found(:n), known)
       ! Then nothing has been found.
       good = .not. was_interrupted()
       if (.not. good) return
@@ -307,9 +309,7 @@ contains
       self%pair%conjugate = conjugate(1) .neqv. conjugate(2)
       self%pair%waves = more
       self%pair%tolerance = fine_change*self%largest
-      call find_floquet_pair(self%level%grid, self%plan, self%level%basis(self%slow), &
-        self%spectrum%motion, place, damping_of(self%request%damping, self%level%grid), &
-        self%request%terms, self%spectrum%mode, self%pair)
+      call find_floquet_pair(equation, self%spectrum%mode, self%pair)
       good = .not. was_interrupted()
       if (.not. good) return
       exponent = self%pair%exponent

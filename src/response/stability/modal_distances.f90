@@ -7,6 +7,7 @@
 !! result, the difference its error.
 module modal_distances
   use constants, only: two_pi
+  use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_t
   use floquet_exponents, only: find_floquet_modes, floquet_mode_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
@@ -15,7 +16,7 @@ module modal_distances
   use mode_numbers, only: growing_mode, most_spread
   use order_transfer, only: transferred_halves
   use refinements, only: add_work, begin_round, compare, raise, refinement_limits_t, refinement_t
-  use response_levels, only: damping_of, level_slot_t, level_t
+  use response_levels, only: level_slot_t, level_t, set_equation
   use stability_types, only: stability_request_t
   use structures, only: structure_t
   use turn_spectra, only: begin_refinements, find_spectrum, need_two_levels, set_too_slow, &
@@ -98,12 +99,13 @@ contains
   subroutine solve_speed(request, speed, level, above, refinement, found)
     type(stability_request_t), intent(in) :: request
     real(wp), intent(in) :: speed
-    type(level_t), intent(in) :: level, above
+    type(level_t), intent(in), target :: level, above
     type(refinement_t), intent(inout) :: refinement
     type(modal_distance_t), intent(inout) :: found
 
-    type(fourier_plan_t) :: plan, above_plan
-    type(turn_spectrum_t) :: spectrum, above_spectrum
+    type(fourier_plan_t), target :: plan, above_plan
+    type(turn_spectrum_t), target :: spectrum, above_spectrum
+    type(equation_at_speed_t) :: equation
     type(modal_distance_t) :: here
     complex(wp), allocatable :: multiplier(:)
     real(wp), allocatable :: error(:)
@@ -155,17 +157,18 @@ contains
       ! As accurate as the distance asks for.
       share = minval(abs(1.0_wp - multiplier(near)) + error(near))/maxval(abs(multiplier(near)))
       tolerance = max(solved_to*min(share, 1.0_wp)*request%accuracy/two_pi, least_change)
-      call find_floquet_modes(level%grid, plan, level%basis(spectrum%motion%number), &
-        spectrum%motion, speed, damping_of(request%damping, level%grid), request%terms, &
-        tolerance(1), spectrum%mode, mine, modes)
+      call set_equation(level, plan, spectrum%motion, speed, request%damping, request%terms, &
+        equation)
+      call find_floquet_modes(equation, tolerance(1), spectrum%mode, mine, modes)
       known = modes
       do i = 1, size(near)
         call transferred_halves(level%grid, plan, above%grid, above_plan, modes(i)%motion, &
           known(i)%motion)
       end do
-      call find_floquet_modes(above%grid, above_plan, above%basis(above_spectrum%motion%number), &
-        above_spectrum%motion, speed, damping_of(request%damping, above%grid), request%terms, &
-        tolerance(2), above_spectrum%mode, wanted(near), better, known)
+      call set_equation(above, above_plan, above_spectrum%motion, speed, request%damping, &
+        request%terms, equation)
+      call find_floquet_modes(equation, tolerance(2), above_spectrum%mode, wanted(near), better, &
+        known)
       do i = 1, size(near)
         associate (slow => above_spectrum%mode(wanted(near(i)))%exponent)
           call add_work(refinement, level%grid, modes(i)%applications)

@@ -7,6 +7,7 @@
 !! could leave it (Krein), than errors reach.
 module stability
   use constants, only: two_pi
+  use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_of_numerics, error_t, set_error
   use floquet_exponents, only: find_floquet_modes, floquet_mode_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
@@ -16,7 +17,7 @@ module stability
   use mode_numbers, only: growing_mode, most_spread
   use order_transfer, only: transferred_halves
   use refinements, only: add_work, begin_round, compare, raise, refinement_limits_t, refinement_t
-  use response_levels, only: damping_of, level_slot_t, level_t
+  use response_levels, only: level_slot_t, level_t, set_equation
   use response_types, only: no_damping
   use sorting, only: ascending_order
   use stability_types, only: exponent_t, speed_stability_t, stability_request_t, &
@@ -106,13 +107,14 @@ contains
   subroutine solve_speed(request, speed, level, above, refinement, found)
     type(stability_request_t), intent(in) :: request
     real(wp), intent(in) :: speed
-    type(level_t), intent(in) :: level, above
+    type(level_t), intent(in), target :: level, above
     type(refinement_t), intent(inout) :: refinement
     type(speed_stability_t), intent(inout) :: found
 
     type(speed_stability_t) :: here
-    type(fourier_plan_t) :: plan, above_plan
-    type(turn_spectrum_t) :: spectrum, above_spectrum
+    type(fourier_plan_t), target :: plan, above_plan
+    type(turn_spectrum_t), target :: spectrum, above_spectrum
+    type(equation_at_speed_t) :: equation
     type(floquet_mode_t), allocatable :: modes(:), above_modes(:), known(:)
     real(wp), allocatable :: mean(:)
     integer, allocatable :: wanted(:), above_wanted(:)
@@ -132,12 +134,16 @@ contains
       if (allocated(here%error)) exit attempt
       wanted = candidates(spectrum, above_spectrum, size(wanted))
       above_wanted = matched(spectrum, wanted, above_spectrum)
-      call refine_all(request, solved_to(1), level, plan, speed, spectrum, wanted, modes, &
+      call set_equation(level, plan, spectrum%motion, speed, request%damping, request%terms, &
+        equation)
+      call refine_all(equation, solved_to(1)*request%accuracy/two_pi, spectrum, wanted, modes, &
         here%error)
       call count_work(level%grid, sum(modes%applications))
       if (allocated(here%error)) exit attempt
       call transfer
-      call refine_all(request, solved_to(2), above, above_plan, speed, above_spectrum, &
+      call set_equation(above, above_plan, above_spectrum%motion, speed, request%damping, &
+        request%terms, equation)
+      call refine_all(equation, solved_to(2)*request%accuracy/two_pi, above_spectrum, &
         above_wanted, above_modes, here%error, known)
       call count_work(above%grid, sum(above_modes%applications))
       if (allocated(here%error)) exit attempt
@@ -432,12 +438,9 @@ contains
   !> Modes of the whole equation.
   !!
   !! Errors: nothing is known of an exponent.
-  subroutine refine_all(request, share, level, plan, speed, spectrum, wanted, modes, error, known)
-    type(stability_request_t), intent(in) :: request
-    real(wp), intent(in) :: share !! of the accuracy, of the last change
-    type(level_t), intent(in) :: level
-    type(fourier_plan_t), intent(in) :: plan
-    real(wp), intent(in) :: speed
+  subroutine refine_all(equation, change, spectrum, wanted, modes, error, known)
+    type(equation_at_speed_t), intent(in) :: equation
+    real(wp), intent(in) :: change !! the last, if it can be as small
     type(turn_spectrum_t), intent(in) :: spectrum
     integer, intent(in) :: wanted(:)
     type(floquet_mode_t), allocatable, intent(out) :: modes(:)
@@ -445,9 +448,7 @@ contains
     type(floquet_mode_t), intent(in), optional :: known(:) !! about these
 
     allocate (modes(size(wanted)))
-    call find_floquet_modes(level%grid, plan, level%basis(spectrum%motion%number), &
-      spectrum%motion, speed, damping_of(request%damping, level%grid), request%terms, &
-      max(share*request%accuracy/two_pi, least_change), spectrum%mode, wanted, modes, &
+    call find_floquet_modes(equation, max(change, least_change), spectrum%mode, wanted, modes, &
       known)
     if (any(modes%change >= huge(1.0_wp))) call set_error(error, error_of_numerics, &
       "nothing is known of the exponent of a vibration: the equation has none in its motions")

@@ -5,15 +5,15 @@
 !! diagonal, harmonic by harmonic: what is left converges in a few iterations, in all unknowns and
 !! all harmonics of the grid.
 module periodic_solver
-  use elastic_equations, only: apply_equation, elastic_terms_t, equation_parts
+  use elastic_equations, only: apply_equation, equation_parts
+  use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_of_numerics, error_t, set_error
-  use fourier_transform, only: coefficients_of, fourier_plan_t, values_of
+  use fourier_transform, only: coefficients_of, values_of
   use interruption, only: was_interrupted
   use kinds, only: wp
   use minimal_residuals, only: add_combination, add_product, minimal_residual_t, start_residual
   use row_products, only: products_of_rows
-  use slow_motions, only: slow_basis_t, slow_motion_t, solve_slow, solve_slow_shifted
-  use turn_grids, only: turn_grid_t
+  use slow_motions, only: slow_basis_t, solve_slow, solve_slow_shifted
   implicit none (type, external)
   private
 
@@ -37,15 +37,9 @@ contains
   !> Solves the equation for a load, from a start.
   !!
   !! Errors: the iterations do not converge at all.
-  subroutine solve_periodic(grid, plan, basis, motion, speed, damping, terms, load, &
-    tolerance, y, iterations, remainder, error, last_change, exponent)
-    type(turn_grid_t), intent(in) :: grid
-    type(fourier_plan_t), intent(in) :: plan    !! for its samples
-    type(slow_basis_t), intent(in) :: basis     !! of this grid
-    type(slow_motion_t), intent(in) :: motion   !! at this speed, of as many coordinates
-    real(wp), intent(in) :: speed               !! ω2 [rad/s]
-    real(wp), intent(in) :: damping(:)          !! (unknowns) c [s]
-    type(elastic_terms_t), intent(in) :: terms
+  subroutine solve_periodic(equation, load, tolerance, y, iterations, remainder, error, &
+    last_change, exponent)
+    type(equation_at_speed_t), intent(in) :: equation
     real(wp), intent(in) :: load(:, :)          !! (samples, unknowns) [√J]
     real(wp), intent(in) :: tolerance           !! of the last change, relative to y; where rounding
                                                 !! does not allow it, `remainder` says so
@@ -112,10 +106,12 @@ contains
 
       if (present(exponent)) then
         allocate (parts(size(force, 1), size(force, 2), 0:2))
-        call equation_parts(grid, plan, speed, damping, terms, motion_of_load, parts)
+        call equation_parts(equation%grid, equation%plan, equation%speed, equation%damping, &
+          equation%terms, motion_of_load, parts)
         force = parts(:, :, 0) + exponent*(parts(:, :, 1) + exponent*parts(:, :, 2))
       else
-        call apply_equation(grid, plan, speed, damping, terms, motion_of_load, force)
+        call apply_equation(equation%grid, equation%plan, equation%speed, equation%damping, &
+          equation%terms, motion_of_load, force)
       end if
     end subroutine apply
 
@@ -123,41 +119,35 @@ contains
       real(wp), intent(in) :: force(:, :)
       real(wp), intent(out) :: motion_of_load(:, :)
 
-      call approximate_solution(plan, basis, motion, speed, damping, force, motion_of_load, &
-        exponent)
+      call approximate_solution(equation, force, motion_of_load, exponent)
     end subroutine approximate
 
   end subroutine solve_periodic
 
   !> An approximate solution: the slow motion, and the rest by its diagonal.
-  subroutine approximate_solution(plan, basis, motion, speed, damping, load, y, exponent)
-    type(fourier_plan_t), intent(in) :: plan        !! for the samples
-    type(slow_basis_t), intent(in) :: basis         !! of these samples
-    type(slow_motion_t), intent(in) :: motion       !! at this speed
-    real(wp), intent(in) :: speed, damping(:)       !! as for `solve_periodic`
+  subroutine approximate_solution(equation, load, y, exponent)
+    type(equation_at_speed_t), intent(in) :: equation
     real(wp), intent(in) :: load(:, :)              !! (samples, unknowns)
     real(wp), intent(out) :: y(:, :)                !! (samples, unknowns)
     real(wp), intent(in), optional :: exponent      !! as for `solve_periodic`
 
-    real(wp), dimension(size(load, 1), basis%number) :: part, z, none, ignored
+    real(wp), dimension(size(load, 1), equation%basis%number) :: part, z, none, ignored
 
-    call slow_part(basis, load, part)
+    call slow_part(equation%basis, load, part)
     if (present(exponent)) then
       none = 0.0_wp
-      call solve_slow_shifted(plan, motion, cmplx(exponent, 0.0_wp, wp), part/speed**2, none, z, &
-        ignored)
+      call solve_slow_shifted(equation%plan, equation%motion, cmplx(exponent, 0.0_wp, wp), &
+        part/equation%speed**2, none, z, ignored)
     else
-      call solve_slow(plan, motion, part/speed**2, z)
+      call solve_slow(equation%plan, equation%motion, part/equation%speed**2, z)
     end if
-    call complete_solution(plan, basis, speed, damping, load, part, z, y)
+    call complete_solution(equation, load, part, z, y)
   end subroutine approximate_solution
 
   !> An approximate solution from the slow motion: in the rest both load and solution have no slow
   !! part, `f − X Xᵀ f`.
-  subroutine complete_solution(plan, basis, speed, damping, load, part, z, y)
-    type(fourier_plan_t), intent(in) :: plan  !! for the samples
-    type(slow_basis_t), intent(in) :: basis   !! of these samples
-    real(wp), intent(in) :: speed, damping(:) !! as for `solve_periodic`
+  subroutine complete_solution(equation, load, part, z, y)
+    type(equation_at_speed_t), intent(in) :: equation
     real(wp), intent(in) :: load(:, :)        !! (samples, unknowns)
     real(wp), intent(in) :: part(:, :)        !! (samples, number) Xᵀ load
     real(wp), intent(in) :: z(:, :)           !! (samples, number) slow motion
@@ -168,12 +158,12 @@ contains
 
     allocate (coefficients, mold=load)
     rest = load
-    call add_slow(basis, -part, rest)
-    call coefficients_of(plan, rest, coefficients)
-    call divide_by_diagonal(basis%square, speed, damping, coefficients)
-    call values_of(plan, coefficients, y)
-    call slow_part(basis, y, of_rest)
-    call add_slow(basis, z - of_rest, y)
+    call add_slow(equation%basis, -part, rest)
+    call coefficients_of(equation%plan, rest, coefficients)
+    call divide_by_diagonal(equation%basis%square, equation%speed, equation%damping, coefficients)
+    call values_of(equation%plan, coefficients, y)
+    call slow_part(equation%basis, y, of_rest)
+    call add_slow(equation%basis, z - of_rest, y)
   end subroutine complete_solution
 
   !> Adds `X z`.

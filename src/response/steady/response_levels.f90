@@ -4,6 +4,8 @@ module response_levels
   use body_lumps, only: pieces_of
   use crank_laws, only: covered_range_t, positions_of
   use deformation_model, only: deformation_model_t, new_deformation_model
+  use elastic_equations, only: elastic_terms_t
+  use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
   use kinds, only: wp
@@ -13,14 +15,15 @@ module response_levels
   use refinements, only: order_on, refinement_t, samples_on
   use response_types, only: damping_by_dampers, damping_ratio, damping_time, &
     link_damping_t
-  use slow_motions, only: fast_squares, new_slow_basis, slow_basis_t
+  use slow_motions, only: fast_squares, new_slow_basis, slow_basis_t, slow_motion_t
   use position_assembly, only: set_border
   use structures, only: structure_t
   use turn_grids, only: new_turn_grid, turn_grid_t
   implicit none (type, external)
   private
 
-  public :: level_t, level_slot_t, new_order_model, need_levels, need_level, need_basis, damping_of
+  public :: level_t, level_slot_t, new_order_model, need_levels, need_level, need_basis, &
+    set_equation, damping_of
 
   !> Degrees along a link are lower than those across it by this, and at least as high as this. The
   !! bending of the links loads them along their axes: both converge together.
@@ -249,6 +252,25 @@ contains
     end subroutine take_known
 
   end subroutine need_basis
+
+  !> The equation on a level. It points to the level, the plan and the motion.
+  subroutine set_equation(level, plan, motion, speed, dampings, terms, equation)
+    type(level_t), intent(in), target :: level
+    type(fourier_plan_t), intent(in), target :: plan  !! for its samples
+    type(slow_motion_t), intent(in), target :: motion !! at this speed
+    real(wp), intent(in) :: speed                     !! ω2 [rad/s]
+    type(link_damping_t), intent(in) :: dampings(:)   !! as for `damping_of`
+    type(elastic_terms_t), intent(in) :: terms
+    type(equation_at_speed_t), intent(out) :: equation
+
+    equation%grid => level%grid
+    equation%plan => plan
+    equation%basis => level%basis(motion%number)
+    equation%motion => motion
+    equation%speed = speed
+    equation%terms = terms
+    equation%damping = damping_of(dampings, level%grid)
+  end subroutine set_equation
 
   !> Damping of every unknown: the Kelvin–Voigt time, or `2 ζ/ω` of the own modes of the link. The
   !! elongation and the rotation of the clamped end take that of its lowest own mode.

@@ -9,6 +9,7 @@ module steady_responses
   use beam_mesh, only: beam_t
   use constants, only: degree, two_pi
   use elastic_equations, only: deformations_of, load_at_speed, strain_rates
+  use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_of_numerics, error_t, set_error
   use floquet_exponents, only: find_nearest_mode, floquet_mode_t
   use fourier_transform, only: close_fourier, coefficients_of, derivatives, fourier_plan_t, &
@@ -24,14 +25,15 @@ module steady_responses
   use quadratic_change, only: find_quadratic_change
   use refinements, only: add_work, begin_round, compare, most_samples, raise, refinement_limits_t, &
     refinement_t, repeat_round, sample_numbers, samples_on
-  use response_levels, only: damping_of, level_slot_t, level_t, need_basis, need_level, need_levels
+  use response_levels, only: level_slot_t, level_t, need_basis, need_level, need_levels, &
+    set_equation
   use response_peaks, only: find_peaks, sampled_deflections
   use response_series, only: first_of_gauge, first_of_point, first_of_torque, place_series, &
     find_values_on_pieces, response_series_of, series_count, strains_along
   use response_types, only: drive_values, no_damping, peak_t, power, quadratic_torque, &
     response_request_t, response_t, rigid_torque, speed_response_t, strain_values, total_torque
   use sorting, only: ascending_order
-  use slow_motions, only: new_slow_motion, own_squares, slow_basis_t, slow_count, slow_motion_t
+  use slow_motions, only: new_slow_motion, own_squares, slow_count, slow_motion_t
   use structures, only: structure_t
   use text, only: to_string
   use turn_grids, only: moves, sense_of, turn_grid_t
@@ -279,13 +281,14 @@ contains
     class(structure_t), intent(in) :: structure
     type(response_request_t), intent(in) :: request
     real(wp), intent(in) :: speed
-    type(level_t), intent(in) :: level, above
+    type(level_t), intent(in), target :: level, above
     type(refinement_t), intent(inout) :: refinement
     type(choice_t), intent(inout) :: choice
     type(speed_response_t), intent(inout) :: found
 
-    type(fourier_plan_t) :: plan, above_plan
-    type(slow_motion_t) :: motion, above_motion
+    type(fourier_plan_t), target :: plan, above_plan
+    type(slow_motion_t), target :: motion, above_motion
+    type(equation_at_speed_t) :: equation, above_equation
     type(solution_t) :: solution, better
     real(wp), allocatable :: errors(:), unsolved(:)
     integer(long) :: before
@@ -298,37 +301,35 @@ contains
     call open_fourier(level%grid%samples, plan)
     call open_fourier(above%grid%samples, above_plan)
     attempt: block
-      associate (basis => level%basis(choice%slow), above_basis => above%basis(choice%slow))
-        call new_slow_motion(plan, basis, speed, stages, motion, found%error)
-        ! Fewer slow coordinates may grow where more do not.
-        more_slow = motion%grows .and. .not. choice%more_slow
-        if (allocated(found%error)) exit attempt
-        allocate (solution%y(level%grid%samples, level%grid%unknowns))
-        solution%y = 0.0_wp
-        call solve_level(request, speed, level%grid, plan, basis, motion, &
-          tolerance_of(solved_to), solution, found%error)
-        if (allocated(found%error)) exit attempt
-        more_slow = is_stuck(solution, solved_to)
-        if (more_slow) exit attempt
-        call transferred(level%grid, plan, above%grid, above_plan, solution%y, better%y)
-        ! Its own slow motion: that of the first has no harmonics beyond its samples.
-        call new_slow_motion(above_plan, above_basis, speed, stages, &
-          above_motion, found%error)
-        if (allocated(found%error)) exit attempt
-        call solve_level(request, speed, above%grid, above_plan, above_basis, above_motion, &
-          tolerance_of(compared_to), better, found%error)
-        if (allocated(found%error)) exit attempt
-        more_slow = is_stuck(better, compared_to)
-        if (more_slow) exit attempt
-      end associate
+      call new_slow_motion(plan, level%basis(choice%slow), speed, stages, motion, found%error)
+      ! Fewer slow coordinates may grow where more do not.
+      more_slow = motion%grows .and. .not. choice%more_slow
+      if (allocated(found%error)) exit attempt
+      call set_equation(level, plan, motion, speed, request%damping, request%terms, equation)
+      allocate (solution%y(level%grid%samples, level%grid%unknowns))
+      solution%y = 0.0_wp
+      call solve_level(request, equation, tolerance_of(solved_to), solution, found%error)
+      if (allocated(found%error)) exit attempt
+      more_slow = is_stuck(solution, solved_to)
+      if (more_slow) exit attempt
+      call transferred(level%grid, plan, above%grid, above_plan, solution%y, better%y)
+      ! Its own slow motion: that of the first has no harmonics beyond its samples.
+      call new_slow_motion(above_plan, above%basis(choice%slow), speed, stages, above_motion, &
+        found%error)
+      if (allocated(found%error)) exit attempt
+      call set_equation(above, above_plan, above_motion, speed, request%damping, request%terms, &
+        above_equation)
+      call solve_level(request, above_equation, tolerance_of(compared_to), better, found%error)
+      if (allocated(found%error)) exit attempt
+      more_slow = is_stuck(better, compared_to)
+      if (more_slow) exit attempt
       found%order = refinement%order
       found%samples = level%grid%samples
       found%slow = choice%slow
-      call look_at_multipliers(request, speed, level, plan, level%basis(choice%slow), motion, &
-        found, looking)
+      call look_at_multipliers(equation, found, looking)
       if (allocated(found%error)) exit attempt
-      call evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
-        found, errors, unsolved)
+      call evaluate(structure, request, equation, above_equation, solution, better, found, &
+        errors, unsolved)
       ! The exact kinematics are those of links between two pins.
       if (request%validity .and. structure%elastic%in_closed_form) call find_changes
     end block attempt
@@ -360,15 +361,12 @@ contains
       integer :: b
 
       tolerance = max(change_share*request%accuracy, least_change)
-      call find_quadratic_change(structure%linkage, level%grid, plan, level%basis(choice%slow), &
-        motion, request, speed, damping_of(request%damping, level%grid), solution%y, &
-        tolerance, found%largest_strain%value, step, found%quadratic_change)
+      call find_quadratic_change(structure%linkage, equation, request, solution%y, tolerance, &
+        found%largest_strain%value, step, found%quadratic_change)
       if (.not. allocated(found%quadratic_change)) return
       call transferred(level%grid, plan, above%grid, above_plan, step, above_step)
-      call find_quadratic_change(structure%linkage, above%grid, above_plan, &
-        above%basis(choice%slow), above_motion, request, speed, damping_of(request%damping, &
-        above%grid), better%y, compared_change*tolerance, &
-        found%largest_strain%value, above_step, other)
+      call find_quadratic_change(structure%linkage, above_equation, request, better%y, &
+        compared_change*tolerance, found%largest_strain%value, above_step, other)
       if (allocated(other)) then
         ! In one link both may agree by chance, in all they do not.
         other = abs(found%quadratic_change - other)
@@ -540,46 +538,35 @@ contains
   end subroutine clear
 
   !> The periodic motion on one level, and its series.
-  subroutine solve_level(request, speed, grid, plan, basis, motion, tolerance, &
-    solution, error)
+  subroutine solve_level(request, equation, tolerance, solution, error)
     type(response_request_t), intent(in) :: request
-    real(wp), intent(in) :: speed
-    type(turn_grid_t), intent(in) :: grid
-    type(fourier_plan_t), intent(in) :: plan        !! for its samples
-    type(slow_basis_t), intent(in) :: basis         !! of this grid
-    type(slow_motion_t), intent(in) :: motion
+    type(equation_at_speed_t), intent(in) :: equation
     real(wp), intent(in) :: tolerance
     type(solution_t), intent(inout) :: solution     !! with a start
     type(error_t), allocatable, intent(out) :: error
 
     real(wp), allocatable :: series(:, :)
 
-    call solve_periodic(grid, plan, basis, motion, speed, damping_of(request%damping, grid), &
-      request%terms, load_at_speed(grid, speed), tolerance, solution%y, &
-      solution%applications, solution%remainder, error, solution%last_change)
+    call solve_periodic(equation, load_at_speed(equation%grid, equation%speed), tolerance, &
+      solution%y, solution%applications, solution%remainder, error, solution%last_change)
     if (allocated(error)) return
-    allocate (series(grid%samples, series_count(request)), solution%series(grid%samples, &
-      series_count(request)))
-    call response_series_of(grid, plan, request, speed, solution%y, series)
-    call coefficients_of(plan, series, solution%series)
+    allocate (series(equation%grid%samples, series_count(request)))
+    allocate (solution%series, mold=series)
+    call response_series_of(equation%grid, equation%plan, request, equation%speed, solution%y, &
+      series)
+    call coefficients_of(equation%plan, series, solution%series)
   end subroutine solve_level
 
   !> Multipliers of a turn, and how near the motion is to resonance.
-  subroutine look_at_multipliers(request, speed, level, plan, basis, motion, found, applications)
-    type(response_request_t), intent(in) :: request
-    real(wp), intent(in) :: speed
-    type(level_t), intent(in) :: level
-    type(fourier_plan_t), intent(in) :: plan
-    type(slow_basis_t), intent(in) :: basis
-    type(slow_motion_t), intent(in) :: motion
+  subroutine look_at_multipliers(equation, found, applications)
+    type(equation_at_speed_t), intent(in) :: equation
     type(speed_response_t), intent(inout) :: found
     integer, intent(out) :: applications !! of the equation, to complex motions
 
     type(floquet_mode_t) :: mode
 
     applications = 0
-    call find_nearest_mode(level%grid, plan, basis, motion, speed, damping_of(request%damping, &
-      level%grid), request%terms, near, mode, found%growth, found%error)
+    call find_nearest_mode(equation, near, mode, found%growth, found%error)
     if (allocated(found%error)) return
     applications = mode%applications
     found%nearest = cmplx(two_pi*real(mode%exponent), abs(aimag(mode%exponent)), wp)
@@ -587,13 +574,10 @@ contains
   end subroutine look_at_multipliers
 
   !> All quantities at the crank angles of the deck, and their errors.
-  subroutine evaluate(structure, request, speed, level, above, plan, above_plan, solution, better, &
-    found, errors, unsolved)
+  subroutine evaluate(structure, request, level, above, solution, better, found, errors, unsolved)
     class(structure_t), intent(in) :: structure
     type(response_request_t), intent(in) :: request
-    real(wp), intent(in) :: speed
-    type(level_t), intent(in) :: level, above
-    type(fourier_plan_t), intent(in) :: plan, above_plan
+    type(equation_at_speed_t), intent(in) :: level, above
     type(solution_t), intent(in) :: solution, better
     type(speed_response_t), intent(inout) :: found
     real(wp), allocatable, intent(out) :: errors(:) !! (series)
@@ -611,13 +595,13 @@ contains
     n = size(solution%series, 2)
     allocate (values(above%grid%samples, n), fine(above%grid%samples, n), &
       before(above%grid%samples, n), errors(n))
-    call values_of(above_plan, resampled(solution%series, above%grid%samples), values)
-    if (allocated(level%grid%pieces)) call find_values_on_pieces(level%grid, plan, request, &
+    call values_of(above%plan, resampled(solution%series, above%grid%samples), values)
+    if (allocated(level%grid%pieces)) call find_values_on_pieces(level%grid, level%plan, request, &
       solution%y, [(two_pi*(k - 1)/above%grid%samples, k=1, above%grid%samples)], values)
-    call values_of(above_plan, better%series, fine)
+    call values_of(above%plan, better%series, fine)
     ! What the iterations leave in both, one starts from the other, is in no difference: slow
     ! motions near resonance may lack many times the last change.
-    call response_series_of(above%grid, above_plan, request, speed, better%y - &
+    call response_series_of(above%grid, above%plan, request, level%speed, better%y - &
       better%last_change, before)
     errors = safety*maxval(abs(values - fine), dim=1) + many*maxval(abs(before - fine), dim=1)
     call find_scales
@@ -644,9 +628,9 @@ contains
     call evaluate_peaks
     found%deflection = sampled_deflections(level%grid, solution%y)
     if (request%validity) then
-      found%buckling = buckling_shares(linkage, level%grid, plan, speed)
+      found%buckling = buckling_shares(linkage, level%grid, level%plan, level%speed)
       found%buckling_error = least_share*coarsest_share + safety*abs(found%buckling - &
-        buckling_shares(linkage, above%grid, above_plan, speed))/max(abs(found%buckling), &
+        buckling_shares(linkage, above%grid, above%plan, level%speed))/max(abs(found%buckling), &
         tiny(1.0_wp))
     end if
     found%largest_error = max(maxval([0.0_wp, found%displacement_error]), &
@@ -659,7 +643,7 @@ contains
       real(wp) :: there(size(request%crank), n)
 
       there = transpose(at_position)
-      call find_values_on_pieces(level%grid, plan, request, solution%y, [(angle_of(k), k=1, &
+      call find_values_on_pieces(level%grid, level%plan, request, solution%y, [(angle_of(k), k=1, &
         size(request%crank))], there)
       at_position = transpose(there)
     end subroutine take_pieces
@@ -678,8 +662,8 @@ contains
 
       allocate (unsolved(n), source=0.0_wp)
       if (all(errors <= request%accuracy)) return
-      call response_series_of(level%grid, plan, request, speed, solution%y, here)
-      call response_series_of(level%grid, plan, request, speed, solution%y - &
+      call response_series_of(level%grid, level%plan, request, level%speed, solution%y, here)
+      call response_series_of(level%grid, level%plan, request, level%speed, solution%y - &
         solution%last_change, there)
       unsolved = safety*maxval(abs(here - there), dim=1)/scale/max(errors, tiny(1.0_wp))
     end subroutine find_unsolved
@@ -714,7 +698,7 @@ contains
       first = first_of_torque(request)
       ! The work of the loads on the deformations measures torques that vanish altogether: all of it
       ! where they are nothing but rounding.
-      work = maxval(abs(sum(load_at_speed(above%grid, speed)*better%y, dim=2)))
+      work = maxval(abs(sum(load_at_speed(above%grid, level%speed)*better%y, dim=2)))
       if (any(largest(first:) > errors(first:)) .or. any(errors(first:) > &
         sqrt(epsilon(1.0_wp))*work)) work = by_nature*work
       scale(first:) = max(largest(first:), by_nature*maxval(abs(sum(fine(:, first:), dim=2))), &
@@ -751,7 +735,7 @@ contains
       allocate (found%drive(drive_values, size(request%crank)))
       found%drive(rigid_torque:quadratic_torque, :) = at_position(first:first + 2, :)
       found%drive(total_torque, :) = sum(found%drive(rigid_torque:quadratic_torque, :), dim=1)
-      found%drive(power, :) = found%drive(total_torque, :)*sense_of(level%grid)*speed
+      found%drive(power, :) = found%drive(total_torque, :)*sense_of(level%grid)*level%speed
       found%mean_torque = sum(solution%series(1, first:first + 2))
       total = sum(values(:, first:first + 2), dim=2)
       fine_total = sum(fine(:, first:first + 2), dim=2)
@@ -767,10 +751,10 @@ contains
         request%validity)))
       found%peak_error = 0.0_wp
       if (size(found%peak_error) == 0) return
-      call find_peaks(level%grid, plan, request, solution%y, found, solution%last_change)
-      call find_peaks(above%grid, above_plan, request, better%y, other, better%last_change)
-      found%power_lost = speed**2*power_of(level%grid, plan, solution%y)
-      other%power_lost = speed**2*power_of(above%grid, above_plan, better%y)
+      call find_peaks(level%grid, level%plan, request, solution%y, found, solution%last_change)
+      call find_peaks(above%grid, above%plan, request, better%y, other, better%last_change)
+      found%power_lost = level%speed**2*power_of(level, solution%y)
+      other%power_lost = level%speed**2*power_of(above, better%y)
       do b = 1, size(beams)
         found%peak_error(b) = safety*abs(found%power_lost(b) - other%power_lost(b))/ &
           max(sum(other%power_lost), tiny(1.0_wp))
@@ -796,7 +780,7 @@ contains
 
       call strains_along(level%grid, body, peaks%xi, solution%y, here(:, :2), here(:, 3:))
       call strains_along(above%grid, body, peaks%xi, better%y, there(:, :2), there(:, 3:))
-      call resample(plan, here, above_plan, moved)
+      call resample(level%plan, here, above%plan, moved)
       there = abs(there) - abs(moved)
       change = max(abs(peaks(1)%value - peaks(2)%value), &
         maxval(abs(there(:, :2) + request%section(body)%outer*there(:, 3:))))
@@ -815,33 +799,32 @@ contains
       do i = 1, size(peaks)
         place = [peaks(i)%xi*linkage%bodies(body)%length, 0.0_wp]
         here = place_series(level%grid, body, place, solution%y)
-        call resample(plan, here, above_plan, moved)
+        call resample(level%plan, here, above%plan, moved)
         moved = moved - place_series(above%grid, body, place, better%y)
         change = max(change, sqrt(maxval(moved(:, 1)**2 + moved(:, 2)**2)))
       end do
     end function deflection_change
 
     !> Mean of `y'ᵀ C y'` of every link.
-    function power_of(grid, plan, y) result(power)
-      type(turn_grid_t), intent(in) :: grid
-      type(fourier_plan_t), intent(in) :: plan
+    function power_of(equation, y) result(power)
+      type(equation_at_speed_t), intent(in) :: equation
       real(wp), intent(in) :: y(:, :)
-      real(wp) :: power(size(grid%integrals))
+      real(wp) :: power(size(equation%grid%integrals))
 
-      real(wp), allocatable :: c(:)
+      integer :: first, last
 
-      c = damping_of(request%damping, grid)
       power = 0.0_wp
-      if (allocated(grid%pieces)) then
-        call add_power_of_strains(grid, plan, y, c, power)
-        return
-      else if (.not. allocated(grid%weighted)) then
-        call add_power(plan, y, c, grid%owner, power)
-        return
-      end if
-      associate (first => grid%border + 1, last => grid%unknowns)
-        call add_power(plan, y(:, first:), c(first:last), grid%owner(first:), power)
-        call add_power(plan, deformations_of(grid, y), c(last + 1:), grid%deformed, power)
+      first = equation%grid%border + 1
+      last = equation%grid%unknowns
+      associate (grid => equation%grid, plan => equation%plan, c => equation%damping)
+        if (allocated(grid%pieces)) then
+          call add_power_of_strains(grid, plan, y, c, power)
+        else if (.not. allocated(grid%weighted)) then
+          call add_power(plan, y, c, grid%owner, power)
+        else
+          call add_power(plan, y(:, first:), c(first:last), grid%owner(first:), power)
+          call add_power(plan, deformations_of(grid, y), c(last + 1:), grid%deformed, power)
+        end if
       end associate
     end function power_of
 

@@ -3,6 +3,7 @@ module transient_starts
   use constants, only: degree
   use crank_laws, only: crank_breaks, crank_law_t, crank_motion
   use elastic_equations, only: load_at_speed
+  use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_of_numerics, error_t, set_error
   use fourier_transform, only: close_fourier, coefficients_of, derivative_of, fourier_plan_t, &
     open_fourier, value_at
@@ -14,7 +15,7 @@ module transient_starts
   use path_grids, only: place_grid
   use periodic_solver, only: solve_periodic
   use refinements, only: sample_numbers
-  use response_levels, only: damping_of, level_slot_t, need_basis, need_level
+  use response_levels, only: level_slot_t, need_basis, need_level, set_equation
   use response_series, only: place_series
   use slow_motions, only: new_slow_motion, slow_count, slow_motion_t
   use structures, only: structure_t
@@ -142,9 +143,10 @@ contains
     real(wp), intent(out) :: lack !! what it lacks, as a share of it
     type(error_t), allocatable, intent(out) :: error
 
-    type(level_slot_t), allocatable :: levels(:)
-    type(slow_motion_t) :: motion
-    type(fourier_plan_t) :: plan
+    type(level_slot_t), allocatable, target :: levels(:)
+    type(slow_motion_t), target :: motion
+    type(fourier_plan_t), target :: plan
+    type(equation_at_speed_t) :: equation
     real(wp), allocatable :: periodic(:, :), coefficients(:, :)
     real(wp) :: speed, theta, remainder, last
     integer :: at, iterations, level, n, slow
@@ -167,9 +169,12 @@ contains
         periodic = 0.0_wp
         remainder = huge(1.0_wp)
         call new_slow_motion(plan, here%basis(slow), speed, slow_stages, motion, error)
-        if (.not. allocated(error)) call solve_periodic(here%grid, plan, here%basis(slow), motion, &
-          speed, damping_of(request%response%damping, here%grid), request%response%terms, &
-          load_at_speed(here%grid, speed), tolerance, periodic, iterations, remainder, error)
+        if (.not. allocated(error)) then
+          call set_equation(here, plan, motion, speed, request%response%damping, &
+            request%response%terms, equation)
+          call solve_periodic(equation, load_at_speed(here%grid, speed), tolerance, periodic, &
+            iterations, remainder, error)
+        end if
         if (.not. allocated(error)) then
           call coefficients_of(plan, periodic, coefficients)
           last = norm2(coefficients(n - n/8:, :))/max(norm2(coefficients), tiny(1.0_wp))

@@ -6,6 +6,7 @@
 !! those found are the change.
 module quadratic_change
   use elastic_equations, only: apply_equation, elastic_terms_t, load_at_speed
+  use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_t
   use exact_forces, only: find_exact_forces
   use fourier_transform, only: fourier_plan_t
@@ -14,7 +15,6 @@ module quadratic_change
   use periodic_solver, only: solve_periodic
   use response_peaks, only: find_peaks
   use response_types, only: response_request_t, speed_response_t
-  use slow_motions, only: slow_basis_t, slow_motion_t
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
@@ -28,16 +28,10 @@ contains
   !!
   !! Without a result: deformed so much, the linkage cannot be closed, or the iterations do not
   !! converge.
-  subroutine find_quadratic_change(linkage, grid, plan, basis, motion, request, &
-    speed, damping, y, tolerance, strain, step, change)
+  subroutine find_quadratic_change(linkage, equation, request, y, tolerance, strain, step, change)
     type(linkage_t), intent(in) :: linkage          !! of the grid
-    type(turn_grid_t), intent(in) :: grid
-    type(fourier_plan_t), intent(in) :: plan        !! for its samples
-    type(slow_basis_t), intent(in) :: basis         !! of this grid
-    type(slow_motion_t), intent(in) :: motion       !! at this speed
-    type(response_request_t), intent(in) :: request !! terms, sections
-    real(wp), intent(in) :: speed                   !! ω2 [rad/s]
-    real(wp), intent(in) :: damping(:)              !! (unknowns) c [s]
+    type(equation_at_speed_t), intent(in) :: equation
+    type(response_request_t), intent(in) :: request !! sections
     real(wp), intent(in) :: y(:, :)                 !! (samples, unknowns) the response [√J]
     real(wp), intent(in) :: tolerance               !! remainder of the iterations
     real(wp), intent(in) :: strain(:)               !! (bodies) the largest of the response
@@ -53,15 +47,15 @@ contains
     integer :: b, applications
 
     allocate (load, mold=y)
-    call find_unbalanced_forces(linkage, grid, plan, speed, y, load, error)
+    call find_unbalanced_forces(linkage, equation%grid, equation%plan, equation%speed, y, load, &
+      error)
     if (allocated(error) .or. .not. all(abs(load) < huge(1.0_wp))) return
     if (.not. allocated(step)) allocate (step(size(y, 1), size(y, 2)), source=0.0_wp)
-    call solve_periodic(grid, plan, basis, motion, speed, damping, request%terms, &
-      load, tolerance, step, applications, remainder, error)
+    call solve_periodic(equation, load, tolerance, step, applications, remainder, error)
     if (allocated(error)) return
     allocate (change(size(linkage%bodies)))
     change = 0.0_wp
-    call find_peaks(grid, plan, request, step, of_step, only_strains=.true.)
+    call find_peaks(equation%grid, equation%plan, request, step, of_step, only_strains=.true.)
     do b = 1, size(change)
       if (linkage%bodies(b)%bends) change(b) = of_step%largest_strain(b)%value/ &
         max(strain(b), tiny(1.0_wp))
