@@ -116,15 +116,17 @@ contains
     type(unit_loads_t), intent(in) :: loads    !! of this pose
     type(link_modes_t), intent(in) :: links(:) !! (bodies)
     type(chords_t), intent(in) :: chords       !! of the border unknowns
-    type(part_forces_t), intent(out) :: forces !! axial, and of the border
+    type(part_forces_t), intent(inout) :: forces !! axial, and of the border; room is used again
 
     integer :: i, n
 
     n = size(chords%turn, 1)
     forces%axial = distributed_unit_forces(linkage, pose, loads)
     if (.not. any(loads%occurs)) return
-    allocate (forces%second_order(n, n, case_count), forces%border(n, case_count), source=0.0_wp)
+    if (.not. allocated(forces%border)) allocate (forces%second_order(n, n, case_count), &
+      forces%border(n, case_count), source=0.0_wp)
     do i = 1, case_count
+      forces%border(:, i) = 0.0_wp
       if (loads%occurs(i)) forces%border(:, i) = border_work(linkage, links, chords, pose, &
         loads%of_case(i))
     end do
