@@ -18,6 +18,7 @@ module bench_response
   use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, &
     real_cells, real_column, table_file_t, write_header, write_rows
   use text, only: string_t, to_string, word_list
+  use strain_dampings, only: damping_t
   use turn_grids, only: turn_grid_t
   use whole_turn, only: collocate, read_motion, turn_matrices_of, turn_matrices_t, write_matrices, write_shapes
   implicit none (type, external)
@@ -512,7 +513,7 @@ contains
         call open_fourier(coarse%samples, coarse_plan)
         call open_fourier(samples, plan)
         call start_watch(watch)
-        call new_slow_basis(coarse, coarse_plan, plan, this%slow, damping, basis, error)
+        call new_slow_basis(coarse, coarse_plan, plan, this%slow, damping_t(damping), basis, error)
         if (allocated(error)) return
         call add_time(2)
         if (above == 0) then
@@ -526,7 +527,7 @@ contains
         force = load_at_speed(grid, request%speed(1))
         y = force
         call start_watch(watch)
-        call apply_equation(grid, plan, request%speed(1), damping, elastic_terms_t(), y, force)
+        call apply_equation(grid, plan, request%speed(1), damping_t(damping), elastic_terms_t(), y, force)
         call add_time(4)
         if (above == 0) then
           call start_watch(watch)

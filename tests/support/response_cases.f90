@@ -19,6 +19,7 @@ module response_cases
   use response_types, only: gauge_t, link_damping_t, link_section_t, response_point_t, response_request_t
   use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_motion_t
   use structures, only: structure_t
+  use strain_dampings, only: damping_t
   use turn_grids, only: new_turn_grid, turn_grid_t
   implicit none (type, external)
   private
@@ -241,9 +242,9 @@ contains
     y = 0.0_wp
     remainder = 0.0_wp
     call open_fourier(grid%samples, plan)
-    call new_slow_basis(grid, plan, plan, slow, damping, basis, error)
+    call new_slow_basis(grid, plan, plan, slow, damping_t(damping), basis, error)
     if (.not. allocated(error)) call new_slow_motion(plan, basis, speed, 3, motion, error)
-    equation = equation_at_speed_t(grid, plan, basis, motion, speed, terms, damping)
+    equation = equation_at_speed_t(grid, plan, basis, motion, speed, terms, damping_t(damping))
     if (.not. allocated(error)) call solve_periodic(equation, load_at_speed(grid, speed), 1.0e-13_wp, y, iterations, &
       remainder, error)
     call close_fourier(plan)

@@ -422,7 +422,7 @@ contains
       if (allocated(error)) exit attempt
       call set_equation(level, plan, spectrum%motion, speed, request%damping, request%terms, &
         equation)
-      is_damped = any(equation%damping > 0.0_wp)
+      is_damped = any(equation%damping%c > 0.0_wp)
       angle = angles_of(spectrum%mode, spectrum%number, speed, request%modes + beside)
       if (size(angle) == 0) exit attempt
       m = nearest_to_one(angle, candidate%crossing%angle%rate)

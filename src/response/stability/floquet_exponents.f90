@@ -253,7 +253,7 @@ contains
     integer :: idle, number, p, partner, round
     logical :: grew, is_damped
 
-    is_damped = any(equation%damping > 0.0_wp)
+    is_damped = any(equation%damping%c > 0.0_wp)
     mode%exponent = slow(wanted)%exponent
     mode%change = huge(1.0_wp)
     if (present(pair)) pair%change = huge(1.0_wp)

@@ -27,6 +27,7 @@ module slow_motions
   use piece_motions, only: add_convection, scale_share
   use row_products, only: add_products, gather, products_of_rows, scatter, together
   use sorting, only: ascending_order
+  use strain_dampings, only: damping_t, is_damped, shares_of
   use text, only: to_string
   use turn_grids, only: moves, rate_case, turn_grid_t
   implicit none (type, external)
@@ -196,7 +197,7 @@ contains
     type(fourier_plan_t), intent(in) :: coarse_plan  !! for these
     type(fourier_plan_t), intent(in) :: plan         !! for the samples wanted
     integer, intent(in) :: number                    !! of slow coordinates
-    real(wp), intent(in) :: damping(:)               !! (unknowns) c [s]
+    type(damping_t), intent(in) :: damping           !! see `damping_of`
     type(slow_basis_t), intent(out) :: basis
     type(error_t), allocatable, intent(out) :: error !! why there are none
     logical, intent(in), optional :: followers       !! the fast deformations follow the slow
@@ -213,8 +214,7 @@ contains
     if (allocated(error)) return
     call find_matrices(coarse, coarse_plan, shape, basis%sums)
     call derivatives(coarse_plan, basis%sums(:, :, of_g), basis%sums(:, :, of_slope))
-    if (any(damping > 0.0_wp)) &
-      call add_damping(coarse, coarse_plan, damping, shape, basis%sums)
+    if (is_damped(damping)) call add_damping(coarse, coarse_plan, damping, shape, basis%sums)
     if (present(followers)) then
       if (followers) call add_what_follows
     end if
@@ -238,7 +238,7 @@ contains
   subroutine add_damping(grid, plan, damping, shape, sums)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
-    real(wp), intent(in) :: damping(:)
+    type(damping_t), intent(in) :: damping
     real(wp), intent(in) :: shape(:, :, :)
     real(wp), intent(inout) :: sums(:, :, :)
 
@@ -250,28 +250,29 @@ contains
       return
     end if
     if (.not. allocated(grid%weighted)) then
-      call add_damped_products(plan, damping, shape, sums)
+      call add_damped_products(plan, damping%c, shape, sums)
       return
     end if
-    call add_damped_products(plan, damping(grid%border + 1:grid%unknowns), &
+    call add_damped_products(plan, damping%c(grid%border + 1:grid%unknowns), &
       shape(:, grid%border + 1:, :), sums)
     allocate (w(grid%samples, size(grid%weighted, 2), size(shape, 3)))
     do i = 1, size(shape, 3)
       w(:, :, i) = deformations_of(grid, shape(:, :, i))
     end do
-    call add_damped_products(plan, damping(grid%unknowns + 1:), w, sums)
+    call add_damped_products(plan, damping%c(grid%unknowns + 1:), w, sums)
   end subroutine add_damping
 
-  !> The same of strains that move through pieces with their material.
+  !> The same of strains that move through pieces with their material: of the roots of their shares.
   subroutine add_strain_products(grid, plan, damping, shape, sums)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
-    real(wp), intent(in) :: damping(:)
+    type(damping_t), intent(in) :: damping
     real(wp), intent(in) :: shape(:, :, :)
     real(wp), intent(inout) :: sums(:, :, :)
 
     real(wp) :: first(size(shape, 1), size(shape, 2))
-    real(wp), allocatable :: w(:, :), w_rates(:, :), rates(:, :), strain(:, :, :), slope(:, :, :)
+    real(wp), allocatable :: w(:, :), w_rates(:, :), rates(:, :), strain(:, :, :), slope(:, :, :), &
+      share(:, :)
     integer :: before, deformations, i, own, n
 
     own = grid%border + 1
@@ -290,8 +291,15 @@ contains
       slope(:, deformations + 1:, i) = rates(:, own:)
     end do
     before = merge(n, 0, allocated(grid%weighted))
-    call add_damped_products(plan, [damping(before + 1:before + deformations), damping(own:n)], &
-      strain, sums, slope)
+    share = sqrt(shares_of(grid, damping, 1, size(damping%c)))
+    share = reshape([share(:, before + 1:before + deformations), share(:, own:n)], &
+      [size(strain, 1), size(strain, 2)])
+    do i = 1, size(shape, 3)
+      strain(:, :, i) = share*strain(:, :, i)
+      slope(:, :, i) = share*slope(:, :, i)
+    end do
+    call add_damped_products(plan, [damping%c(before + 1:before + deformations), &
+      damping%c(own:n)], strain, sums, slope)
   end subroutine add_strain_products
 
   !> Adds those of some motions with constant damping each.

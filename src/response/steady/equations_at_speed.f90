@@ -5,6 +5,7 @@ module equations_at_speed
   use fourier_transform, only: fourier_plan_t
   use kinds, only: wp
   use slow_motions, only: slow_basis_t, slow_motion_t
+  use strain_dampings, only: damping_t
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
@@ -18,7 +19,7 @@ module equations_at_speed
     type(slow_motion_t), pointer :: motion => null() !! at this speed, of as many coordinates
     real(wp) :: speed = 0.0_wp                       !! ω2 [rad/s]
     type(elastic_terms_t) :: terms
-    real(wp), allocatable :: damping(:)              !! (unknowns) c [s], see `damping_of`
+    type(damping_t) :: damping                       !! see `damping_of`
   end type equation_at_speed_t
 
 end module equations_at_speed

@@ -14,6 +14,7 @@ module periodic_solver
   use minimal_residuals, only: add_combination, add_product, minimal_residual_t, start_residual
   use row_products, only: products_of_rows
   use slow_motions, only: slow_basis_t, solve_slow, solve_slow_shifted
+  use strain_dampings, only: mean_damping
   implicit none (type, external)
   private
 
@@ -160,7 +161,8 @@ contains
     rest = load
     call add_slow(equation%basis, -part, rest)
     call coefficients_of(equation%plan, rest, coefficients)
-    call divide_by_diagonal(equation%basis%square, equation%speed, equation%damping, coefficients)
+    call divide_by_diagonal(equation%basis%square, equation%speed, mean_damping(equation%grid, &
+      equation%damping), coefficients)
     call values_of(equation%plan, coefficients, y)
     call slow_part(equation%basis, y, of_rest)
     call add_slow(equation%basis, z - of_rest, y)

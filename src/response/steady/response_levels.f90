@@ -17,8 +17,9 @@ module response_levels
     link_damping_t
   use slow_motions, only: fast_squares, new_slow_basis, slow_basis_t, slow_motion_t
   use position_assembly, only: set_border
+  use strain_dampings, only: damping_t, shares_of
   use structures, only: structure_t
-  use turn_grids, only: new_turn_grid, turn_grid_t
+  use turn_grids, only: moves, new_turn_grid, turn_grid_t
   implicit none (type, external)
   private
 
@@ -274,38 +275,62 @@ contains
 
   !> Damping of every unknown: the Kelvin–Voigt time, or `2 ζ/ω` of the own modes of the link. The
   !! elongation and the rotation of the clamped end take that of its lowest own mode.
-  pure function damping_of(dampings, grid) result(c)
+  pure function damping_of(dampings, grid) result(damping)
     type(link_damping_t), intent(in) :: dampings(:) !! (bodies), then that of dampers, if any act
     type(turn_grid_t), intent(in) :: grid
-    real(wp), allocatable :: c(:) !! (unknowns) [s]; where there are more deformations of parts
-                                  !! than border unknowns, of these the mean, behind all unknowns
-                                  !! that of every deformation, of dampers [N s/m] or [N m s/rad]
+    type(damping_t) :: damping
 
     integer :: b, i, n
 
-    allocate (c(grid%unknowns), source=0.0_wp)
+    allocate (damping%c(grid%unknowns), source=0.0_wp)
     do b = 1, size(grid%integrals)
       if (.not. grid%model%links(b)%bends) cycle
-      associate (damping => dampings(b), link => grid%model%links(b))
-        select case (damping%kind)
+      associate (of_link => dampings(b), link => grid%model%links(b), c => damping%c)
+        select case (of_link%kind)
         case (damping_time)
-          where (grid%owner == b) c = damping%value
+          where (grid%owner == b) c = of_link%value
         case (damping_ratio)
-          where (grid%owner == b) c = 2.0_wp*damping%value*sqrt(maxval(link%square))
-          c(grid%first(b):grid%first(b) + link%modes - 1) = 2.0_wp*damping%value*sqrt(link%square)
+          where (grid%owner == b) c = 2.0_wp*of_link%value*sqrt(maxval(link%square))
+          c(grid%first(b):grid%first(b) + link%modes - 1) = 2.0_wp*of_link%value*sqrt(link%square)
           c(grid%first_along(b):grid%first_along(b) + link%axial_modes - 1) = &
-            2.0_wp*damping%value*sqrt(link%axial_square)
+            2.0_wp*of_link%value*sqrt(link%axial_square)
         end select
       end associate
     end do
+    n = 0
+    if (allocated(grid%weighted)) then
+      n = size(grid%weighted, 2) - size(grid%dampers)
+      damping%c = [damping%c, [(damping_of_deformation(grid, dampings, i), i=1, n)], &
+        grid%dampers%damping]
+      if (.not. any(dampings%kind == damping_by_dampers)) damping%c(grid%unknowns + n + 1:) = 0.0_wp
+    end if
+    call find_powers(dampings, grid, damping)
     if (.not. allocated(grid%weighted)) return
-    n = size(grid%weighted, 2) - size(grid%dampers)
-    c = [c, [(damping_of_deformation(grid, dampings, i), i=1, n)], grid%dampers%damping]
-    if (.not. any(dampings%kind == damping_by_dampers)) c(grid%unknowns + n + 1:) = 0.0_wp
     do b = 1, grid%border
-      c(b) = sum(matmul(grid%weighted(:, :, b)**2, c(grid%unknowns + 1:)))/grid%samples
+      damping%c(b) = sum(matmul(shares_of(grid, damping, grid%unknowns + 1, size(damping%c))* &
+        grid%weighted(:, :, b)**2, damping%c(grid%unknowns + 1:)))/grid%samples
     end do
   end function damping_of
+
+  !> How `2 ζ/ω` of own modes grows with the length of a piece: with its square across, with the
+  !! length along it.
+  pure subroutine find_powers(dampings, grid, damping)
+    type(link_damping_t), intent(in) :: dampings(:)
+    type(turn_grid_t), intent(in) :: grid
+    type(damping_t), intent(inout) :: damping
+
+    integer :: b
+
+    do b = 1, size(grid%integrals)
+      if (.not. moves(grid, b) .or. dampings(b)%kind /= damping_ratio) cycle
+      if (.not. allocated(damping%power)) allocate (damping%power(size(damping%c)), source=0)
+      associate (power => damping%power, along => grid%first_along(b), n => grid%unknowns)
+        where (grid%owner == b) power(:n) = 2
+        power(along:along + grid%model%links(b)%axial_modes - 1) = 1
+        if (size(power) > n) where (grid%deformed == b) power(n + 1:) = 2
+      end associate
+    end do
+  end subroutine find_powers
 
   !> Damping of a deformation of a part or a spring [s].
   pure function damping_of_deformation(grid, dampings, number) result(c)

@@ -13,6 +13,7 @@ module response_series
   use response_levels, only: damping_of
   use response_types, only: response_request_t
   use row_products, only: products_of_rows
+  use strain_dampings, only: damping_t, shares_of
   use turn_grids, only: moves, sense_of, turn_grid_t
   implicit none (type, external)
   private
@@ -98,7 +99,7 @@ contains
   function damping_torque(grid, plan, damping, terms, y) result(torque)
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
-    real(wp), intent(in) :: damping(:) !! of `damping_of` [s]
+    type(damping_t), intent(in) :: damping !! of `damping_of`
     type(elastic_terms_t), intent(in) :: terms
     real(wp), intent(in) :: y(:, :)
     real(wp) :: torque(size(y, 1), 3)
@@ -113,16 +114,17 @@ contains
     call strain_rates(grid, plan, y, first, w, slope, rates)
     moved = slope - deformations_of(grid, first)
     k = merge(grid%unknowns, 0, allocated(grid%weighted))
-    if (terms%quadratic) torque(:, 3) = matmul(moved*slope, damping(k + 1:k + size(w, 2)))
+    if (terms%quadratic) torque(:, 3) = matmul(shares_of(grid, damping, k + 1, k + size(w, 2))* &
+      moved*slope, damping%c(k + 1:k + size(w, 2)))
     if (terms%quadratic .and. allocated(grid%pieces)) then
-      associate (own => grid%border + 1)
-        torque(:, 3) = torque(:, 3) + matmul((rates(:, own:) - first(:, own:))*rates(:, own:), &
-          damping(own:grid%unknowns))
+      associate (own => grid%border + 1, last => grid%unknowns)
+        torque(:, 3) = torque(:, 3) + matmul(shares_of(grid, damping, own, last)* &
+          (rates(:, own:) - first(:, own:))*rates(:, own:), damping%c(own:last))
       end associate
     end if
     k = size(w, 2) - size(grid%dampers)
     do i = 1, size(grid%dampers)
-      associate (damper => grid%dampers(i), c => damping(grid%unknowns + k + i))
+      associate (damper => grid%dampers(i), c => damping%c(grid%unknowns + k + i))
         torque(:, 1) = torque(:, 1) + c*damper%rate**2
         torque(:, 2) = torque(:, 2) + c*damper%rate*(moved(:, k + i) + slope(:, k + i))
         if (.not. terms%quadratic .or. .not. terms%axial) cycle

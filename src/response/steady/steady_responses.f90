@@ -34,6 +34,7 @@ module steady_responses
     response_request_t, response_t, rigid_torque, speed_response_t, strain_values, total_torque
   use sorting, only: ascending_order
   use slow_motions, only: new_slow_motion, own_squares, slow_count, slow_motion_t
+  use strain_dampings, only: damping_t, shares_of
   use structures, only: structure_t
   use text, only: to_string
   use turn_grids, only: moves, sense_of, turn_grid_t
@@ -820,36 +821,39 @@ contains
         if (allocated(grid%pieces)) then
           call add_power_of_strains(grid, plan, y, c, power)
         else if (.not. allocated(grid%weighted)) then
-          call add_power(plan, y, c, grid%owner, power)
+          call add_power(plan, y, c%c, grid%owner, power)
         else
-          call add_power(plan, y(:, first:), c(first:last), grid%owner(first:), power)
-          call add_power(plan, deformations_of(grid, y), c(last + 1:), grid%deformed, power)
+          call add_power(plan, y(:, first:), c%c(first:last), grid%owner(first:), power)
+          call add_power(plan, deformations_of(grid, y), c%c(last + 1:), grid%deformed, power)
         end if
       end associate
     end function power_of
 
     !> The same where strains move through pieces with their material.
-    subroutine add_power_of_strains(grid, plan, y, c, power)
+    subroutine add_power_of_strains(grid, plan, y, damping, power)
       type(turn_grid_t), intent(in) :: grid
       type(fourier_plan_t), intent(in) :: plan
-      real(wp), intent(in) :: y(:, :), c(:)
+      real(wp), intent(in) :: y(:, :)
+      type(damping_t), intent(in) :: damping
       real(wp), intent(inout) :: power(:)
 
-      real(wp) :: first(size(y, 1), size(y, 2))
+      real(wp) :: first(size(y, 1), size(y, 2)), share(size(y, 1), size(damping%c))
       real(wp), allocatable :: w(:, :), w_rates(:, :), rates(:, :)
       integer :: before, i
 
       call derivatives(plan, y, first)
       call strain_rates(grid, plan, y, first, w, w_rates, rates)
+      share = shares_of(grid, damping, 1, size(damping%c))
       before = merge(grid%unknowns, 0, allocated(grid%weighted))
       do i = 1, size(w, 2)
         associate (b => grid%deformed(i))
-          if (b > 0) power(b) = power(b) + c(before + i)*sum(w_rates(:, i)**2)/grid%samples
+          if (b > 0) power(b) = power(b) + damping%c(before + i)*sum(share(:, before + i)* &
+            w_rates(:, i)**2)/grid%samples
         end associate
       end do
       do i = grid%border + 1, grid%unknowns
         associate (b => grid%owner(i))
-          power(b) = power(b) + c(i)*sum(rates(:, i)**2)/grid%samples
+          power(b) = power(b) + damping%c(i)*sum(share(:, i)*rates(:, i)**2)/grid%samples
         end associate
       end do
     end subroutine add_power_of_strains

@@ -12,6 +12,7 @@ module excited_vibrations
   use lapack, only: dgetrf, dgetrs, dsygvx
   use motion_matrices, only: find_motion_matrices, load_at, motion_matrices_t, stiffness_at
   use path_grids, only: place_grid
+  use strain_dampings, only: damping_t
   use structures, only: structure_t
   use transient_quantities, only: quantities_of
   use transient_steps, only: add_damping, elastic_state_t, kick, rates_of
@@ -44,7 +45,7 @@ contains
     type(crank_law_t), intent(in) :: law           !! of the crank
     real(wp), intent(in) :: time(:)                !! of the rows, rising [s]
     real(wp), intent(in) :: start(:)               !! (2 unknowns) y, P at the first
-    real(wp), intent(in) :: damping(:)             !! of `damping_of` [s]
+    type(damping_t), intent(in) :: damping         !! of `damping_of`
     type(turn_grid_t), intent(inout) :: grid       !! for one crank angle
     type(excited_vibration_t), allocatable, intent(out) :: vibration(:)
     type(error_t), allocatable, intent(out) :: error

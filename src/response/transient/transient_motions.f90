@@ -12,6 +12,7 @@ module transient_motions
   use kinds, only: long, wp
   use motion_matrices, only: find_motion_matrices, motion_matrices_t
   use path_grids, only: new_path_grid, place_grid
+  use strain_dampings, only: damping_t
   use structures, only: structure_t
   use transient_steps, only: advance, elastic_state_t, kick, make_steps, take_steps, &
     transient_step_t
@@ -48,7 +49,7 @@ contains
     class(structure_t), intent(in) :: structure    !! linkage and beams
     type(deformation_model_t), intent(in) :: model !! of its bodies
     type(crank_law_t), intent(in) :: law           !! of the crank
-    real(wp), intent(in) :: damping(:)             !! of `damping_of` [s]
+    type(damping_t), intent(in) :: damping         !! of `damping_of`
     logical, intent(in) :: axial                   !! with the stiffness of axial forces
     real(wp), intent(in) :: time(:)                !! (instants) [s]; of a constant speed even,
                                                    !! but the last

@@ -27,6 +27,7 @@ module transient_responses
   use response_types, only: strain_values
   use slow_motions, only: own_squares
   use structures, only: structure_t
+  use strain_dampings, only: damping_t
   use text, only: to_string
   use transient_quantities, only: of_gauge, of_point, quantities_of
   use transient_motions, only: solve_motion, stages, transient_motion_t
@@ -322,7 +323,8 @@ contains
     type(turn_grid_t) :: grid
     type(transient_motion_t) :: motion
     type(excited_vibration_t), allocatable :: vibration(:)
-    real(wp), allocatable :: start(:), damping(:)
+    type(damping_t) :: damping
+    real(wp), allocatable :: start(:)
     real(wp) :: lack
 
     call new_path_grid(structure, model, 1, grid, found%error, law%range)

@@ -10,6 +10,7 @@ module transient_steps
   use lapack, only: dgetrf, dgetrs
   use motion_matrices, only: find_motion_matrices, load_at, motion_matrices_t, stiffness_at
   use path_grids, only: place_grid
+  use strain_dampings, only: damping_t, share_at
   use structures, only: structure_t
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
@@ -80,7 +81,7 @@ contains
     steps, error)
     class(structure_t), intent(in) :: structure !! of the grid
     type(crank_law_t), intent(in) :: law     !! of the crank; smooth over all steps
-    real(wp), intent(in) :: damping(:)       !! of `damping_of` [s]
+    type(damping_t), intent(in) :: damping   !! of `damping_of`
     logical, intent(in) :: axial             !! with the stiffness of axial forces
     type(collocation_t), intent(in) :: rule  !! of a step
     real(wp), intent(in) :: start            !! of the first step [s]
@@ -116,7 +117,7 @@ contains
     state, error)
     class(structure_t), intent(in) :: structure        !! arguments as of `make_steps`
     type(crank_law_t), intent(in) :: law
-    real(wp), intent(in) :: damping(:)
+    type(damping_t), intent(in) :: damping
     logical, intent(in) :: axial
     type(collocation_t), intent(in) :: rule
     real(wp), intent(in) :: start, length
@@ -147,7 +148,7 @@ contains
   !! Ṗ_j`, `Ṗ_j = D_j v_j + V_j y_j + f_j` for the rates v of the stages.
   subroutine find_terms(matrices, damping, axial, rule, first, speed, acceleration, h, terms)
     type(motion_matrices_t), intent(in) :: matrices
-    real(wp), intent(in) :: damping(:)
+    type(damping_t), intent(in) :: damping
     logical, intent(in) :: axial
     type(collocation_t), intent(in) :: rule
     integer, intent(in) :: first            !! number of the first stage in the matrices
@@ -191,7 +192,7 @@ contains
   subroutine add_damping(matrices, at, damping, speed, d, v)
     type(motion_matrices_t), intent(in) :: matrices
     integer, intent(in) :: at               !! number of the stage in the matrices
-    real(wp), intent(in) :: damping(:)
+    type(damping_t), intent(in) :: damping
     real(wp), intent(in) :: speed           !! ω2 [rad/s]
     real(wp), intent(inout) :: d(:, :), v(:, :) !! (unknowns, unknowns)
 
@@ -201,8 +202,10 @@ contains
     n = size(d, 1)
     border = 0
     if (allocated(matrices%strain)) then
-      associate (strain => matrices%strain(:, :, at), slope => matrices%strain_slope(:, :, at))
-        damped = spread(damping(matrices%strain_damping), 2, n)*strain
+      associate (strain => matrices%strain(:, :, at), slope => matrices%strain_slope(:, :, at), &
+          numbers => matrices%strain_damping)
+        damped = spread(damping%c(numbers)*share_at(damping, numbers, &
+          matrices%strain_length(:, at)), 2, n)*strain
         d = d - matmul(transpose(damped), strain)
         v = v - speed*matmul(transpose(damped), slope)
       end associate
@@ -211,13 +214,13 @@ contains
     if (allocated(matrices%deformed)) then
       associate (q => matrices%deformed(:, :, at), slope => matrices%deformed_slope(:, :, at))
         border = size(q, 2)
-        damped = spread(damping(n + 1:), 2, border)*q
+        damped = spread(damping%c(n + 1:), 2, border)*q
         d(:border, :border) = d(:border, :border) - matmul(transpose(damped), q)
         v(:border, :border) = v(:border, :border) - speed*matmul(transpose(damped), slope)
       end associate
     end if
     do k = border + 1, n
-      d(k, k) = d(k, k) - damping(k)
+      d(k, k) = d(k, k) - damping%c(k)
     end do
   end subroutine add_damping
 

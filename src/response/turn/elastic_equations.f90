@@ -10,6 +10,7 @@ module elastic_equations
   use load_cases, only: constant_case
   use piece_motions, only: add_convection, add_flux, add_moved, add_strain_convection, &
     moved_back, scale_amplitudes, scale_share, scale_slopes
+  use strain_dampings, only: damping_t, is_damped, shares_of
   use turn_grids, only: moves, rate_case, turn_grid_t
   implicit none (type, external)
   private
@@ -583,7 +584,7 @@ contains
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan
     real(wp), intent(in) :: speed
-    real(wp), intent(in) :: damping(:)
+    type(damping_t), intent(in) :: damping
     real(wp), intent(in) :: y(:, :), rates(:, :) !! (samples, unknowns) y, y'
     real(wp), intent(inout) :: force(:, :)
 
@@ -616,34 +617,44 @@ contains
     if (allocated(grid%pieces)) call add_strain_convection(grid, w, y, w_rates, rates)
   end subroutine strain_rates
 
-  !> The same of unknowns with a constant damping of their own.
+  !> The same of unknowns with a damping of their own.
   pure subroutine add_own_damping(grid, speed, damping, rates, force)
     type(turn_grid_t), intent(in) :: grid
-    real(wp), intent(in) :: speed, damping(:)
+    real(wp), intent(in) :: speed
+    type(damping_t), intent(in) :: damping
     real(wp), intent(in) :: rates(:, :)
     real(wp), intent(inout) :: force(:, :)
 
-    integer :: i
+    real(wp), allocatable :: share(:, :)
+    integer :: i, own
 
-    do i = merge(grid%border + 1, 1, allocated(grid%weighted)), size(rates, 2)
-      force(:, i) = force(:, i) + speed*damping(i)*rates(:, i)
+    own = merge(grid%border + 1, 1, allocated(grid%weighted))
+    allocate (share(grid%samples, own:size(rates, 2)))
+    share(:, :) = shares_of(grid, damping, own, size(rates, 2))
+    do i = own, size(rates, 2)
+      force(:, i) = force(:, i) + speed*damping%c(i)*share(:, i)*rates(:, i)
     end do
   end subroutine add_own_damping
 
   !> Adds `ω Qᵀ C w`.
   pure subroutine add_to_border(grid, speed, damping, w, force)
     type(turn_grid_t), intent(in) :: grid
-    real(wp), intent(in) :: speed, damping(:)
+    real(wp), intent(in) :: speed
+    type(damping_t), intent(in) :: damping
     real(wp), intent(in) :: w(:, :)        !! (samples, deformations)
     real(wp), intent(inout) :: force(:, :)
 
+    real(wp) :: damped(size(w, 1), size(w, 2))
     integer :: i, j
 
-    do j = 1, grid%border
-      do i = 1, size(w, 2)
-        force(:, j) = force(:, j) + speed*damping(grid%unknowns + i)*grid%weighted(:, i, j)*w(:, i)
+    associate (n => grid%unknowns)
+      damped = shares_of(grid, damping, n + 1, n + size(w, 2))*w
+      do j = 1, grid%border
+        do i = 1, size(w, 2)
+          force(:, j) = force(:, j) + speed*damping%c(n + i)*grid%weighted(:, i, j)*damped(:, i)
+        end do
       end do
-    end do
+    end associate
   end subroutine add_to_border
 
   !> Deformations of the ends of parts, of springs and dampers in a motion: w = Q y, or the border
@@ -752,14 +763,14 @@ contains
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan   !! for its samples
     real(wp), intent(in) :: speed              !! ω2 [rad/s]
-    real(wp), intent(in) :: damping(:)         !! (unknowns) c [s], see `damping_of`
+    type(damping_t), intent(in) :: damping     !! see `damping_of`
     type(elastic_terms_t), intent(in) :: terms
     real(wp), intent(in) :: y(:, :)            !! (samples, unknowns) [√J]
     real(wp), intent(out) :: force(:, :)       !! (samples, unknowns) [√J]
 
     real(wp), allocatable :: first(:, :)
 
-    if (any(damping > 0.0_wp)) then
+    if (is_damped(damping)) then
       allocate (first, mold=y)
       call inertia_force(grid, plan, terms, y, force, first)
     else
@@ -776,7 +787,7 @@ contains
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan   !! for its samples
     real(wp), intent(in) :: speed              !! ω2 [rad/s]
-    real(wp), intent(in) :: damping(:)         !! (unknowns) c [s], see `damping_of`
+    type(damping_t), intent(in) :: damping     !! see `damping_of`
     type(elastic_terms_t), intent(in) :: terms
     real(wp), intent(in) :: y(:, :)            !! (samples, unknowns) [√J]
     real(wp), intent(out) :: parts(:, :, 0:)   !! (samples, unknowns, power) [√J]
@@ -784,8 +795,7 @@ contains
     call inertia_parts(grid, plan, terms, y, parts)
     parts = speed**2*parts
     parts(:, :, 0) = parts(:, :, 0) + y
-    if (any(damping > 0.0_wp)) &
-      call add_damping_parts(grid, plan, speed, damping, y, parts(:, :, :1))
+    if (is_damped(damping)) call add_damping_parts(grid, plan, speed, damping, y, parts(:, :, :1))
     if (terms%axial) call geometric_force_at(grid, speed, y, parts(:, :, 0))
   end subroutine equation_parts
 
@@ -794,7 +804,7 @@ contains
     type(turn_grid_t), intent(in) :: grid
     type(fourier_plan_t), intent(in) :: plan     !! for its samples
     real(wp), intent(in) :: speed                !! ω2 [rad/s]
-    real(wp), intent(in) :: damping(:)           !! (unknowns) c [s], see `damping_of`
+    type(damping_t), intent(in) :: damping       !! see `damping_of`
     real(wp), intent(in) :: y(:, :)              !! (samples, unknowns) [√J]
     real(wp), intent(inout) :: parts(:, :, 0:)   !! (samples, unknowns, power 0 and 1) [√J]
 

@@ -6,6 +6,7 @@ module motion_matrices
   use kinds, only: wp
   use load_cases, only: constant_case
   use piece_motions, only: add_strain_convection
+  use strain_dampings, only: lengths_of
   use turn_grids, only: rate_case, turn_grid_t
   implicit none (type, external)
   private
@@ -26,9 +27,10 @@ module motion_matrices
     real(wp), allocatable :: deformed(:, :, :), deformed_slope(:, :, :)
     !> (strains, unknowns, samples) with pieces whose lengths change: of all deformations, then own
     !! modes, for unit unknowns, and their rates in the material at constant unknowns; their numbers
-    !! among the dampings
+    !! among the dampings; (strains, samples) lengths of their pieces, by those of the tables
     real(wp), allocatable :: strain(:, :, :), strain_slope(:, :, :)
     integer, allocatable :: strain_damping(:)
+    real(wp), allocatable :: strain_length(:, :)
   end type motion_matrices_t
 
 contains
@@ -93,9 +95,13 @@ contains
     d = size(grid%deformed)
     if (.not. allocated(grid%weighted)) d = grid%border
     if (.not. allocated(matrices%strain)) allocate (matrices%strain(d + n - grid%border, n, &
-      grid%samples), matrices%strain_slope(d + n - grid%border, n, grid%samples))
+      grid%samples), matrices%strain_slope(d + n - grid%border, n, grid%samples), &
+      matrices%strain_length(d + n - grid%border, grid%samples))
     matrices%strain_damping = [(i + merge(n, 0, allocated(grid%weighted)), i=1, d), &
       (i, i=grid%border + 1, n)]
+    do i = 1, size(matrices%strain_damping)
+      matrices%strain_length(i, :) = lengths_of(grid, matrices%strain_damping(i))
+    end do
     do j = 1, n
       y = 0.0_wp
       y(:, j) = 1.0_wp

@@ -15,6 +15,7 @@ module quadratic_change
   use periodic_solver, only: solve_periodic
   use response_peaks, only: find_peaks
   use response_types, only: response_request_t, speed_response_t
+  use strain_dampings, only: damping_t
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
@@ -75,12 +76,13 @@ contains
     real(wp), intent(out) :: force(:, :)             !! (samples, unknowns) [√J]
     type(error_t), allocatable, intent(out) :: error !! why there are none
 
-    real(wp) :: linear(size(y, 1), size(y, 2)), no_damping(size(y, 2))
+    type(damping_t) :: none
+    real(wp) :: linear(size(y, 1), size(y, 2))
 
-    no_damping = 0.0_wp
+    allocate (none%c(size(y, 2)), source=0.0_wp)
     call find_exact_forces(linkage, grid, plan, speed, y, force, error)
     if (allocated(error)) return
-    call apply_equation(grid, plan, speed, no_damping, elastic_terms_t(), y, linear)
+    call apply_equation(grid, plan, speed, none, elastic_terms_t(), y, linear)
     force = force - load_at_speed(grid, speed) + linear - y
   end subroutine find_unbalanced_forces
 

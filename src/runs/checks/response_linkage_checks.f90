@@ -125,13 +125,10 @@ contains
         reason = " with shear or rotary inertia; expected a slender one, or "//rigid_link
       else if (model%links(link)%damping > 0) then
         associate (damping => model%dampings(model%links(link)%damping))
-          if (damping%ratio > 0.0_wp) then
-            reason = ", whose own modes with their damping ratio change with the place of the "// &
-              "block; expected 'time=' on its DAMPING card"
-          else if (damping%time > 0.0_wp .and. model%sliders(number)%inertia > 0.0_wp) then
-            ! The jump of the curvature under it would lose energy as it moves.
-            reason = " with 'inertia=' of the block and DAMPING of the link; expected one of them"
-          end if
+          ! The jump of the curvature under it would lose energy as it moves.
+          if (max(damping%time, damping%ratio) > 0.0_wp .and. model%sliders(number)%inertia > &
+            0.0_wp) reason = " with 'inertia=' of the block and DAMPING of the link; expected "// &
+            "one of them"
         end associate
       end if
     end associate
