@@ -3,6 +3,7 @@ module bench_response
   use bench_cases, only: median_of
   use bench_models, only: base_t
   use elastic_equations, only: apply_equation, elastic_terms_t, load_at_speed
+  use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_of_numerics, error_t, set_error
   use fourier_transform, only: close_fourier, coefficients_of, fourier_plan_t, open_fourier, value_at
   use kinds, only: long, wp
@@ -13,7 +14,8 @@ module bench_response
   use response_series, only: first_of_gauge, first_of_torque, response_series_of, series_count
   use response_types, only: axial_strain, bending_strain, response_request_t, response_t, shear_force, speed_response_t, &
     total_torque
-  use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_motion_t
+  use slow_bases, only: new_slow_basis, slow_basis_t
+  use slow_motions, only: new_slow_motion, slow_motion_t
   use table_rows, only: add_failed_row, add_row, rows_t
   use tables, only: column_t, finish_table, integer_cell, integer_column, name_cell, name_column, open_table, &
     real_cells, real_column, table_file_t, write_header, write_rows
@@ -300,7 +302,7 @@ contains
     if (allocated(error)) return
     call open_fourier(basis_samples, coarse_plan)
     call open_fourier(matrix_samples, plan)
-    call new_slow_basis(coarse, coarse_plan, plan, max(1, this%slow), [real(wp) ::], basis, error)
+    call new_slow_basis(coarse, coarse_plan, plan, max(1, this%slow), damping_t([real(wp) ::]), basis, error)
     call close_fourier(plan)
     call close_fourier(coarse_plan)
     if (.not. allocated(error)) call write_matrices(folder//"/matrices.bin", matrices, error)
@@ -484,10 +486,13 @@ contains
 
     type(mechanism_t) :: mechanism
     type(response_request_t) :: request
-    type(turn_grid_t) :: grid, coarse
-    type(fourier_plan_t) :: plan, coarse_plan
-    type(slow_basis_t) :: basis
-    type(slow_motion_t) :: motion
+    type(turn_grid_t), target :: grid
+    type(turn_grid_t) :: coarse
+    type(fourier_plan_t), target :: plan
+    type(fourier_plan_t) :: coarse_plan
+    type(slow_basis_t), target :: basis
+    type(slow_motion_t), target :: motion
+    type(equation_at_speed_t) :: equation
     type(watch_t) :: watch
     real(wp), allocatable :: damping(:), y(:, :), force(:, :), series(:, :)
     real(wp) :: wall, least(6), seconds
@@ -524,6 +529,12 @@ contains
         else
           least(3) = 0.0_wp
         end if
+        equation%grid => grid
+        equation%plan => plan
+        equation%basis => basis
+        equation%motion => motion
+        equation%speed = request%speed(1)
+        equation%damping = damping_t(damping)
         force = load_at_speed(grid, request%speed(1))
         y = force
         call start_watch(watch)
@@ -531,7 +542,7 @@ contains
         call add_time(4)
         if (above == 0) then
           call start_watch(watch)
-          call approximate_solution(plan, basis, motion, request%speed(1), damping, force, y)
+          call approximate_solution(equation, force, y)
           call add_time(5)
         else
           least(5) = 0.0_wp

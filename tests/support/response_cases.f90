@@ -17,7 +17,8 @@ module response_cases
   use linkages, only: body_t, lump_t
   use periodic_solver, only: solve_periodic
   use response_types, only: gauge_t, link_damping_t, link_section_t, response_point_t, response_request_t
-  use slow_motions, only: new_slow_basis, new_slow_motion, slow_basis_t, slow_motion_t
+  use slow_bases, only: new_slow_basis, slow_basis_t
+  use slow_motions, only: new_slow_motion, slow_motion_t
   use structures, only: structure_t
   use strain_dampings, only: damping_t
   use turn_grids, only: new_turn_grid, turn_grid_t

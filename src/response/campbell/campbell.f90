@@ -10,7 +10,7 @@ module campbell
   use link_store, only: link_store_t
   use response_levels, only: level_slot_t, need_basis, need_level
   use response_types, only: no_damping
-  use slow_motions, only: slow_basis_t
+  use slow_bases, only: slow_basis_t
   use stability, only: find_stability
   use stability_types, only: stability_request_t, stability_t
   use structures, only: structure_t

@@ -11,7 +11,7 @@ module frozen_bands
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier, resample
   use frozen_modes, only: find_frozen_frequencies
   use kinds, only: wp
-  use slow_motions, only: slow_basis_t
+  use slow_bases, only: slow_basis_t
   implicit none (type, external)
   private
 

@@ -5,7 +5,7 @@ module frozen_modes
   use dense_eigensolver, only: solve_dense
   use errors, only: error_t
   use kinds, only: wp
-  use slow_motions, only: frozen_matrices, slow_basis_t
+  use slow_bases, only: frozen_matrices, slow_basis_t
   implicit none (type, external)
   private
 

@@ -20,7 +20,8 @@ module floquet_exponents
   use kinds, only: wp
   use periodic_solver, only: add_slow, complete_solution, slow_part
   use quadratic_pencil, only: find_pencil_modes
-  use slow_motions, only: slow_basis_t, slow_mode_shape, slow_mode_t, slow_modes, slow_motion_t, &
+  use slow_bases, only: slow_basis_t
+  use slow_motions, only: slow_mode_shape, slow_mode_t, slow_modes, slow_motion_t, &
     solve_slow_shifted
   implicit none (type, external)
   private

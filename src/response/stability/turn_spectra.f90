@@ -9,8 +9,9 @@ module turn_spectra
   use mode_numbers, only: numbers_of
   use refinements, only: most_samples, refinement_t, sample_numbers
   use response_levels, only: level_slot_t, level_t, need_basis, need_level, need_levels
-  use slow_motions, only: add_shape_frequencies, new_slow_motion, own_squares, slow_mode_t, &
-    slow_modes, slow_motion_t
+  use slow_bases, only: own_squares
+  use slow_motions, only: add_shape_frequencies, new_slow_motion, slow_mode_t, slow_modes, &
+    slow_motion_t
   use sorting, only: ascending_order
   use stability_types, only: stability_request_t
   use structures, only: structure_t

@@ -4,7 +4,8 @@ module equations_at_speed
   use elastic_equations, only: elastic_terms_t
   use fourier_transform, only: fourier_plan_t
   use kinds, only: wp
-  use slow_motions, only: slow_basis_t, slow_motion_t
+  use slow_bases, only: slow_basis_t
+  use slow_motions, only: slow_motion_t
   use strain_dampings, only: damping_t
   use turn_grids, only: turn_grid_t
   implicit none (type, external)

@@ -13,7 +13,8 @@ module periodic_solver
   use kinds, only: wp
   use minimal_residuals, only: add_combination, add_product, minimal_residual_t, start_residual
   use row_products, only: products_of_rows
-  use slow_motions, only: slow_basis_t, solve_slow, solve_slow_shifted
+  use slow_bases, only: slow_basis_t
+  use slow_motions, only: solve_slow, solve_slow_shifted
   use strain_dampings, only: mean_damping
   implicit none (type, external)
   private

@@ -15,7 +15,8 @@ module response_levels
   use refinements, only: order_on, refinement_t, samples_on
   use response_types, only: damping_by_dampers, damping_ratio, damping_time, &
     link_damping_t
-  use slow_motions, only: fast_squares, new_slow_basis, slow_basis_t, slow_motion_t
+  use slow_bases, only: fast_squares, new_slow_basis, slow_basis_t
+  use slow_motions, only: slow_motion_t
   use position_assembly, only: set_border
   use strain_dampings, only: damping_t, shares_of
   use structures, only: structure_t

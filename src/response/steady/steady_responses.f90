@@ -33,7 +33,8 @@ module steady_responses
   use response_types, only: drive_values, no_damping, peak_t, power, quadratic_torque, &
     response_request_t, response_t, rigid_torque, speed_response_t, strain_values, total_torque
   use sorting, only: ascending_order
-  use slow_motions, only: new_slow_motion, own_squares, slow_count, slow_motion_t
+  use slow_bases, only: own_squares, slow_count
+  use slow_motions, only: new_slow_motion, slow_motion_t
   use strain_dampings, only: damping_t, shares_of
   use structures, only: structure_t
   use text, only: to_string

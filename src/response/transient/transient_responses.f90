@@ -25,7 +25,7 @@ module transient_responses
   use response_levels, only: damping_of, new_order_model
   use response_peaks, only: sampled_deflections
   use response_types, only: strain_values
-  use slow_motions, only: own_squares
+  use slow_bases, only: own_squares
   use structures, only: structure_t
   use strain_dampings, only: damping_t
   use text, only: to_string

@@ -17,7 +17,8 @@ module transient_starts
   use refinements, only: sample_numbers
   use response_levels, only: level_slot_t, need_basis, need_level, set_equation
   use response_series, only: place_series
-  use slow_motions, only: new_slow_motion, slow_count, slow_motion_t
+  use slow_bases, only: slow_count
+  use slow_motions, only: new_slow_motion, slow_motion_t
   use structures, only: structure_t
   use text, only: to_string
   use transient_steps, only: momenta_of
