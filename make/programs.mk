@@ -6,7 +6,10 @@ vpath %.f90 $(sort $(dir $(program_sources)))
 $(shell mkdir -p $(build)/programs && makedepf90 -b '$$(build)/programs' $(program_sources) > $(build)/programs/dependencies.mk)
 include $(build)/programs/dependencies.mk
 
-$(build)/programs/%.o: %.f90 $(build)/command $(modules) $(build)/four_bars.o
+# Linkages that are put together by hand.
+by_hand = $(addprefix $(build)/,four_bars.o divided_structures.o)
+
+$(build)/programs/%.o: %.f90 $(build)/command $(modules) $(by_hand)
 	@echo "$(FC) ($(kind)) $<"
 	$(compile) -ffree-line-length-132 $(warnings_$(kind)) -J$(@D) -I$(build) -c $< -o $@
 
@@ -19,7 +22,7 @@ $(build)/stress/responses:  $(call from,stress_responses,tests/stress/responses)
 $(build)/stress/stability:  $(call from,stress_stability,tests/stress/responses)
 $(build)/stress/read_words: $(call from,read_words)
 build/scaling/record_tasks: $(call from,record_tasks,tests/scaling)
-$(build)/bench/bench $(build)/stress/responses $(build)/stress/stability $(build)/stress/read_words build/scaling/record_tasks: $(modules) $(build)/four_bars.o
+$(build)/bench/bench $(build)/stress/responses $(build)/stress/stability $(build)/stress/read_words build/scaling/record_tasks: $(modules) $(by_hand)
 	@echo "link $@"
 	mkdir -p $(@D)
 	$(compile) $^ $(libraries) -o $@

@@ -1,6 +1,7 @@
 !> Random mechanisms with all that a deck can hold for the elastic response.
 module random_mechanisms
   use constants, only: pi, two_pi
+  use divided_structures, only: divide
   use four_bars, only: new_four_bar
   use kinds, only: wp
   use linkages, only: linkage_t, lump_t
@@ -106,6 +107,7 @@ contains
     if (.not. any(bends)) error stop "nothing bends"
     euler = minval(pi**2*case%structure%beams%bending_stiffness/length**2, mask=bends)
     call draw_loads(draw, case%family, euler, case%sine, minval(length), case%structure%linkage)
+    call divide(case%structure)
   end subroutine draw_linkage
 
   !> Four lengths such that the crank turns fully.

@@ -11,6 +11,7 @@ program stress_responses
   use, intrinsic :: iso_c_binding, only: c_int, c_long
   use beam_mesh, only: beam_t
   use constants, only: degree
+  use divided_structures, only: divide
   use errors, only: error_t
   use kinds, only: wp
   use link_store, only: link_store_t
@@ -197,6 +198,7 @@ contains
         call move_alloc(lumps, linkage%bodies(b)%lumps)
       end do
     end associate
+    call divide(other%structure)
   end function turned
 
   pure function rotated(vector, angle) result(other)
