@@ -328,23 +328,24 @@ contains
     push = pushes(motion, force)
     state = 0.0_wp
     do k = 1, n
-      state = stepped(k)
+      call go_on(k)
     end do
     call dgetrs("N", 2*m, 1, motion%factor, 2*m, motion%pivot, state, 2*m, info)
     do k = 1, n
       z(k, :) = state(:m)
-      state = stepped(k)
+      call go_on(k)
     end do
 
   contains
 
-    pure function stepped(k) result(next)
+    !> The state from the start of a step to its end.
+    subroutine go_on(k)
       integer, intent(in) :: k
-      real(wp) :: next(2*m)
 
-      next = matmul(motion%transfer(:, :, k), [state(:m), state(m + 1:) + push(:m, k)])
-      next(m + 1:) = next(m + 1:) + push(m + 1:, k)
-    end function stepped
+      state(m + 1:) = state(m + 1:) + push(:m, k)
+      state = matmul(motion%transfer(:, :, k), state)
+      state(m + 1:) = state(m + 1:) + push(m + 1:, k)
+    end subroutine go_on
 
   end subroutine solve_slow
 
@@ -521,7 +522,7 @@ contains
     push(:, :, 2) = pushes(motion, force_imaginary)
     state = 0.0_wp
     do k = 1, n
-      state = stepped(k)
+      call go_on(k)
     end do
     ! (e^{2πσ} − monodromy) state = what the load leaves after a turn, in real numbers
     turned = exp(two_pi*exponent)
@@ -540,20 +541,19 @@ contains
       turned_back = parts_of_product(exp(-exponent*two_pi*(k - 1)/n), state(:, 1), state(:, 2))
       z(k, :) = turned_back(:m, 1)
       z_imaginary(k, :) = turned_back(:m, 2)
-      state = stepped(k)
+      call go_on(k)
     end do
 
   contains
 
-    pure function stepped(k) result(next)
+    !> The state from the start of a step to its end.
+    subroutine go_on(k)
       integer, intent(in) :: k
-      real(wp) :: next(2*m, 2)
 
-      next(:m, :) = state(:m, :)
-      next(m + 1:, :) = state(m + 1:, :) + push(:m, k, :)
-      next = matmul(motion%transfer(:, :, k), next)
-      next(m + 1:, :) = next(m + 1:, :) + push(m + 1:, k, :)
-    end function stepped
+      state(m + 1:, :) = state(m + 1:, :) + push(:m, k, :)
+      state = matmul(motion%transfer(:, :, k), state)
+      state(m + 1:, :) = state(m + 1:, :) + push(m + 1:, k, :)
+    end subroutine go_on
 
   end subroutine solve_slow_shifted
 
