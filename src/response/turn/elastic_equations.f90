@@ -10,7 +10,7 @@ module elastic_equations
   use load_cases, only: constant_case
   use piece_motions, only: add_convection, add_flux, add_moved, add_strain_convection, &
     moved_back, scale_amplitudes, scale_share, scale_slopes
-  use strain_dampings, only: damping_t, is_damped, shares_of
+  use strain_dampings, only: damping_t, grown, is_damped
   use turn_grids, only: moves, rate_case, turn_grid_t
   implicit none (type, external)
   private
@@ -625,14 +625,10 @@ contains
     real(wp), intent(in) :: rates(:, :)
     real(wp), intent(inout) :: force(:, :)
 
-    real(wp), allocatable :: share(:, :)
-    integer :: i, own
+    integer :: i
 
-    own = merge(grid%border + 1, 1, allocated(grid%weighted))
-    allocate (share(grid%samples, own:size(rates, 2)))
-    share(:, :) = shares_of(grid, damping, own, size(rates, 2))
-    do i = own, size(rates, 2)
-      force(:, i) = force(:, i) + speed*damping%c(i)*share(:, i)*rates(:, i)
+    do i = merge(grid%border + 1, 1, allocated(grid%weighted)), size(rates, 2)
+      force(:, i) = force(:, i) + speed*damping%c(i)*grown(grid, damping, i, rates(:, i))
     end do
   end subroutine add_own_damping
 
@@ -644,17 +640,15 @@ contains
     real(wp), intent(in) :: w(:, :)        !! (samples, deformations)
     real(wp), intent(inout) :: force(:, :)
 
-    real(wp) :: damped(size(w, 1), size(w, 2))
+    real(wp) :: rate(size(w, 1))
     integer :: i, j
 
-    associate (n => grid%unknowns)
-      damped = shares_of(grid, damping, n + 1, n + size(w, 2))*w
+    do i = 1, size(w, 2)
+      rate = grown(grid, damping, grid%unknowns + i, w(:, i))
       do j = 1, grid%border
-        do i = 1, size(w, 2)
-          force(:, j) = force(:, j) + speed*damping%c(n + i)*grid%weighted(:, i, j)*damped(:, i)
-        end do
+        force(:, j) = force(:, j) + speed*damping%c(grid%unknowns + i)*grid%weighted(:, i, j)*rate
       end do
-    end associate
+    end do
   end subroutine add_to_border
 
   !> Deformations of the ends of parts, of springs and dampers in a motion: w = Q y, or the border

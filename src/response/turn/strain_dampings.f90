@@ -6,7 +6,7 @@ module strain_dampings
   implicit none (type, external)
   private
 
-  public :: damping_t, is_damped, lengths_of, mean_damping, share_at, shares_of
+  public :: damping_t, is_damped, grown, lengths_of, mean_damping, share_at, shares_of
 
   !> Damping of the unknowns; where there are more deformations of parts than border unknowns, of
   !! these the mean, behind all unknowns that of every deformation and of dampers.
@@ -37,7 +37,20 @@ contains
     if (allocated(damping%power)) share = length**damping%power(numbers)
   end function share_at
 
-  !> The same of dampings one after another, over the samples.
+  !> Rates as a damping counts them at the lengths of its piece, over the samples.
+  pure function grown(grid, damping, number, rate)
+    type(turn_grid_t), intent(in) :: grid
+    type(damping_t), intent(in) :: damping
+    integer, intent(in) :: number       !! of the damping
+    real(wp), intent(in) :: rate(:)     !! (samples)
+    real(wp) :: grown(size(rate))
+
+    grown = rate
+    if (.not. allocated(damping%power)) return
+    if (damping%power(number) > 0) grown = lengths_of(grid, number)**damping%power(number)*rate
+  end function grown
+
+  !> What dampings one after another are beside those of the tables, over the samples.
   pure function shares_of(grid, damping, first, last) result(share)
     type(turn_grid_t), intent(in) :: grid
     type(damping_t), intent(in) :: damping
@@ -47,10 +60,8 @@ contains
     integer :: i
 
     share = 1.0_wp
-    if (.not. allocated(damping%power)) return
     do i = first, last
-      if (damping%power(i) > 0) share(:, i) = share_at(damping, spread(i, 1, grid%samples), &
-        lengths_of(grid, i))
+      share(:, i) = grown(grid, damping, i, share(:, i))
     end do
   end function shares_of
 
