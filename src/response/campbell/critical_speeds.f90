@@ -28,6 +28,7 @@ module critical_speeds
   use response_peaks, only: find_peaks, sampled_deflections
   use response_types, only: no_damping, response_request_t, speed_response_t
   use stability_types, only: stability_request_t
+  use strain_dampings, only: is_damped
   use structures, only: structure_t
   use turn_grids, only: turn_grid_t
   use turn_spectra, only: begin_refinements, find_spectrum, need_two_levels, slow_number, &
@@ -411,7 +412,6 @@ contains
     type(error_t), allocatable :: error
     real(wp) :: apart
     integer :: slow, i, m
-    logical :: is_damped
 
     trial%speed = speed
     if (was_interrupted()) return
@@ -422,26 +422,27 @@ contains
       if (allocated(error)) exit attempt
       call set_equation(level, plan, spectrum%motion, speed, request%damping, request%terms, &
         equation)
-      is_damped = any(equation%damping%c > 0.0_wp)
       angle = angles_of(spectrum%mode, spectrum%number, speed, request%modes + beside)
       if (size(angle) == 0) exit attempt
       m = nearest_to_one(angle, candidate%crossing%angle%rate)
       ! Of a pair on the circle one tells of both.
       wanted = pack([(i, i=1, size(spectrum%number))], spectrum%number == m)
-      if (.not. is_damped) wanted = [growing_mode(spectrum%mode, spectrum%number, m)]
+      if (.not. is_damped(equation%damping)) wanted = &
+        [growing_mode(spectrum%mode, spectrum%number, m)]
       allocate (mode(size(wanted)))
       call find_floquet_modes(equation, max(solved_to*request%accuracy/two_pi, least_change), &
         spectrum%mode, wanted, mode)
       if (any(mode%change > far)) exit attempt
       trial%turns = abs(aimag(mode(1)%exponent))
       trial%change = maxval(mode%change)
-      if (is_damped) trial%centre = sum(real(mode%exponent))/size(mode)
+      if (is_damped(equation%damping)) trial%centre = sum(real(mode%exponent))/size(mode)
       ! A number that is real within its error is real, and so is one far from the centre.
       apart = abs(real(mode(1)%exponent) - trial%centre)
       if (trial%turns <= max(on_axis, many*trial%change, real_share*apart)) then
         trial%turns = 0.0_wp
         trial%apart = apart
-        if (is_damped .and. trial%apart < solved_to_turns) trial%alone = real(mode(1)%exponent)
+        if (is_damped(equation%damping) .and. trial%apart < solved_to_turns) trial%alone = &
+          real(mode(1)%exponent)
       end if
       trial%turns = sign(trial%turns, mode(1)%action)
       call find_mean(level, slow, speed, angle(m)%rate*speed, candidate%crossing%mode, trial%mean)

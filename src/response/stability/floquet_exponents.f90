@@ -23,6 +23,7 @@ module floquet_exponents
   use slow_bases, only: slow_basis_t
   use slow_motions, only: slow_mode_shape, slow_mode_t, slow_modes, slow_motion_t, &
     solve_slow_shifted
+  use strain_dampings, only: is_damped
   implicit none (type, external)
   private
 
@@ -252,9 +253,9 @@ contains
     real(wp) :: error
     complex(wp) :: here
     integer :: idle, number, p, partner, round
-    logical :: grew, is_damped
+    logical :: damped, grew
 
-    is_damped = any(equation%damping%c > 0.0_wp)
+    damped = is_damped(equation%damping)
     mode%exponent = slow(wanted)%exponent
     mode%change = huge(1.0_wp)
     if (present(pair)) pair%change = huge(1.0_wp)
@@ -279,9 +280,9 @@ contains
       followed = values(number)
       weights = vectors(:, number)
       partner = number
-      if (.not. is_damped .and. abs(real(followed)) > off_circle) &
+      if (.not. damped .and. abs(real(followed)) > off_circle) &
         partner = minloc(abs(values + conjg(followed)), dim=1)
-      if (is_damped) partner = maxloc(abs(matmul(conjg(matmul(slope_of_form(followed), weights)), &
+      if (damped) partner = maxloc(abs(matmul(conjg(matmul(slope_of_form(followed), weights)), &
         vectors)), dim=1, mask=abs(aimag(values - followed)) < together)
       if (present(pair)) partner = minloc(distance(values, vectors, second), dim=1, &
         mask=[(p /= number, p=1, size(values))])
@@ -290,7 +291,7 @@ contains
       partner_weights = vectors(:, partner)
       here = followed
       if (present(pair)) pair%exponent = [followed, followed_partner]
-      if (space%is_harmonic .and. .not. (is_damped .and. present(pair))) call take_value_of_form
+      if (space%is_harmonic .and. .not. (damped .and. present(pair))) call take_value_of_form
       ! A mode may take half a minute.
       if (was_interrupted()) exit
       call find_residual(here, weights, residual)
@@ -311,7 +312,7 @@ contains
       else if (error <= tolerance .or. idle == most_idle) then
         exit
       end if
-      if (round == rounds_of_projection(merge(2, 1, is_damped))) then
+      if (round == rounds_of_projection(merge(2, 1, damped))) then
         call gather(weights, partner_weights)
         if (.not. present(pair) .and. mode%change < shift) fixed = mode%exponent + shift
         call make_harmonic
@@ -576,7 +577,7 @@ contains
       integer :: n
 
       call find_residual(-conjg(here), partner_weights, left)
-      if (.not. is_damped) return
+      if (.not. damped) return
       n = equation%grid%unknowns
       v = motion_of(partner_weights)
       parts = 0.0_wp
@@ -628,7 +629,7 @@ contains
       do p = 0, 2
         do i = 1, k
           space%form(i, k, p) = product_of(space%vector(:, :, i), space%parts(:, :, p, k))
-          if (is_damped) then
+          if (damped) then
             space%form(k, i, p) = product_of(v, space%parts(:, :, p, i))
           else
             ! L0 and L2 are Hermitian, L1 is not but for its sign.
