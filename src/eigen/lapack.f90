@@ -4,7 +4,7 @@ module lapack
   implicit none (type, external)
   private
 
-  public :: dsygvx, dpbtrf, dpbtrs, dsaupd, dseupd, dgetf2, dgetrf, dgetrs, dgeev
+  public :: dsygvx, dpbtrf, dpbtrs, dsaupd, dseupd, dgetrf, dgetrs, dgeev
 
   interface
     !> Selected eigenvalues and eigenvectors of `A x = λ B x`, both symmetric, B positive definite
@@ -39,14 +39,6 @@ module lapack
       real(wp), intent(inout) :: b(ldb, *)
       integer, intent(out) :: info
     end subroutine dpbtrs
-
-    !> Factorization of a small general matrix with row interchanges, column after column (LAPACK).
-    pure subroutine dgetf2(m, n, a, lda, ipiv, info)
-      import :: wp
-      integer, intent(in) :: m, n, lda
-      real(wp), intent(inout) :: a(lda, *)
-      integer, intent(out) :: ipiv(*), info
-    end subroutine dgetf2
 
     !> Factorization of a general matrix with row interchanges (LAPACK).
     pure subroutine dgetrf(m, n, a, lda, ipiv, info)

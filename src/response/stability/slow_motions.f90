@@ -258,7 +258,8 @@ contains
   end subroutine make_step
 
   !> Replaces B by `A⁻¹ B`, with exchanges of rows. Products of large parts take less time than
-  !! column after column.
+  !! column after column: with LAPACK's dgetrf or dgetf2 stability takes a tenth more, a response a
+  !! twentieth.
   pure subroutine divide(n, columns, a)
     integer, intent(in) :: n, columns
     real(wp), intent(inout) :: a(n, columns) !! A, then B
@@ -328,26 +329,28 @@ contains
     push = pushes(motion, force)
     state = 0.0_wp
     do k = 1, n
-      call go_on(k)
+      call go_on(motion, k, push(:, k), state)
     end do
     call dgetrs("N", 2*m, 1, motion%factor, 2*m, motion%pivot, state, 2*m, info)
     do k = 1, n
       z(k, :) = state(:m)
-      call go_on(k)
+      call go_on(motion, k, push(:, k), state)
     end do
-
-  contains
-
-    !> The state from the start of a step to its end.
-    subroutine go_on(k)
-      integer, intent(in) :: k
-
-      state(m + 1:) = state(m + 1:) + push(:m, k)
-      state = matmul(motion%transfer(:, :, k), state)
-      state(m + 1:) = state(m + 1:) + push(m + 1:, k)
-    end subroutine go_on
-
   end subroutine solve_slow
+
+  !> The state, coordinates and momenta, from the start of a step to its end.
+  pure subroutine go_on(motion, step, push, state)
+    type(slow_motion_t), intent(in) :: motion
+    integer, intent(in) :: step
+    real(wp), intent(in) :: push(:)     !! (2 number) of `pushes`
+    real(wp), intent(inout) :: state(:) !! (2 number)
+
+    associate (m => motion%number)
+      state(m + 1:) = state(m + 1:) + push(:m)
+      state = matmul(motion%transfer(:, :, step), state)
+      state(m + 1:) = state(m + 1:) + push(m + 1:)
+    end associate
+  end subroutine go_on
 
   !> Adds what loads at a stage are as forces on the trial functions of the steps.
   pure subroutine add_stage(motion, stage, load, force)
@@ -522,7 +525,9 @@ contains
     push(:, :, 2) = pushes(motion, force_imaginary)
     state = 0.0_wp
     do k = 1, n
-      call go_on(k)
+      do i = 1, 2
+        call go_on(motion, k, push(:, k, i), state(:, i))
+      end do
     end do
     ! (e^{2πσ} − monodromy) state = what the load leaves after a turn, in real numbers
     turned = exp(two_pi*exponent)
@@ -541,20 +546,10 @@ contains
       turned_back = parts_of_product(exp(-exponent*two_pi*(k - 1)/n), state(:, 1), state(:, 2))
       z(k, :) = turned_back(:m, 1)
       z_imaginary(k, :) = turned_back(:m, 2)
-      call go_on(k)
+      do i = 1, 2
+        call go_on(motion, k, push(:, k, i), state(:, i))
+      end do
     end do
-
-  contains
-
-    !> The state from the start of a step to its end.
-    subroutine go_on(k)
-      integer, intent(in) :: k
-
-      state(m + 1:, :) = state(m + 1:, :) + push(:m, k, :)
-      state = matmul(motion%transfer(:, :, k), state)
-      state(m + 1:, :) = state(m + 1:, :) + push(m + 1:, k, :)
-    end subroutine go_on
-
   end subroutine solve_slow_shifted
 
   !> Real and imaginary parts of a number times a complex vector.
