@@ -6,7 +6,6 @@
 !! difference its error. Where that exceeds the accuracy, orders or samples are raised, whichever is
 !! to blame.
 module steady_responses
-  use beam_mesh, only: beam_t
   use constants, only: degree, two_pi
   use elastic_equations, only: deformations_of, load_at_speed, strain_rates
   use equations_at_speed, only: equation_at_speed_t
@@ -18,7 +17,6 @@ module steady_responses
   use kinds, only: long, wp
   use link_loads, only: buckling_shares
   use link_store, only: link_store_t
-  use linkages, only: linkage_t
   use order_transfer, only: transferred
   use out_of_plane, only: find_out_of_plane_frequency
   use periodic_solver, only: solve_periodic
@@ -587,13 +585,9 @@ contains
                                                     !! the first solution left
 
     real(wp), allocatable :: values(:, :), fine(:, :), before(:, :), at_position(:, :), scale(:)
-    type(linkage_t) :: linkage
-    type(beam_t), allocatable :: beams(:)
     real(wp) :: extra
     integer :: i, k, first, n
 
-    linkage = structure%elastic%linkage
-    beams = structure%elastic%beams
     n = size(solution%series, 2)
     allocate (values(above%grid%samples, n), fine(above%grid%samples, n), &
       before(above%grid%samples, n), errors(n))
@@ -630,10 +624,11 @@ contains
     call evaluate_peaks
     found%deflection = sampled_deflections(level%grid, solution%y)
     if (request%validity) then
-      found%buckling = buckling_shares(linkage, level%grid, level%plan, level%speed)
+      found%buckling = buckling_shares(structure%elastic%linkage, level%grid, level%plan, &
+        level%speed)
       found%buckling_error = least_share*coarsest_share + safety*abs(found%buckling - &
-        buckling_shares(linkage, above%grid, above%plan, level%speed))/max(abs(found%buckling), &
-        tiny(1.0_wp))
+        buckling_shares(structure%elastic%linkage, above%grid, above%plan, level%speed))/ &
+        max(abs(found%buckling), tiny(1.0_wp))
     end if
     found%largest_error = max(maxval([0.0_wp, found%displacement_error]), &
       maxval([0.0_wp, found%strain_error]), found%drive_error, maxval([0.0_wp, found%peak_error]))
@@ -682,12 +677,12 @@ contains
         first = first_of_point(i)
         scale(first:first + 1) = sqrt(maxval(fine(:, first)**2 + fine(:, first + 1)**2))
         scale(first + 2) = max(largest(first + 2), by_nature*scale(first)/ &
-          linkage%bodies(request%points(i)%body)%length)
+          structure%elastic%linkage%bodies(request%points(i)%body)%length)
       end do
       do i = 1, size(request%gauges)
         first = first_of_gauge(request, i)
         associate (body => request%gauges(i)%body)
-          associate (outer => request%section(body)%outer, beam => beams(body))
+          associate (outer => request%section(body)%outer, beam => structure%elastic%beams(body))
             associate (strain => largest(first) + outer*largest(first + 1))
               scale(first) = max(largest(first), by_nature*strain)
               scale(first + 1) = max(largest(first + 1), by_nature*strain/max(outer, tiny(1.0_wp)))
@@ -716,7 +711,8 @@ contains
         found%strain_error(size(request%gauges)))
       do g = 1, size(request%gauges)
         first = first_of_gauge(request, g)
-        associate (gauge => request%gauges(g), beam => beams(request%gauges(g)%body), &
+        associate (gauge => request%gauges(g), &
+          beam => structure%elastic%beams(request%gauges(g)%body), &
           section => request%section(request%gauges(g)%body))
           do k = 1, size(request%crank)
             found%strain(:, g, k) = gauge_values_of(gauge, beam, section, at_position(first, k), &
@@ -749,7 +745,7 @@ contains
       type(speed_response_t) :: other
       integer :: b
 
-      allocate (found%peak_error(merge(size(beams), 0, request%peaks .or. &
+      allocate (found%peak_error(merge(size(structure%elastic%beams), 0, request%peaks .or. &
         request%validity)))
       found%peak_error = 0.0_wp
       if (size(found%peak_error) == 0) return
@@ -757,10 +753,11 @@ contains
       call find_peaks(above%grid, above%plan, request, better%y, other, better%last_change)
       found%power_lost = level%speed**2*power_of(level, solution%y)
       other%power_lost = level%speed**2*power_of(above, better%y)
-      do b = 1, size(beams)
+      do b = 1, size(structure%elastic%beams)
         found%peak_error(b) = safety*abs(found%power_lost(b) - other%power_lost(b))/ &
           max(sum(other%power_lost), tiny(1.0_wp))
-        if (linkage%bodies(b)%bends) found%peak_error(b) = max(found%peak_error(b), &
+        if (structure%elastic%linkage%bodies(b)%bends) found%peak_error(b) = &
+          max(found%peak_error(b), &
           safety*strain_change(b, [found%largest_strain(b), other%largest_strain(b)])/ &
           max(other%largest_strain(b)%value, by_nature**2*maxval(other%largest_strain%value), &
           tiny(1.0_wp)), &
@@ -799,7 +796,7 @@ contains
 
       change = abs(peaks(1)%value - peaks(2)%value)
       do i = 1, size(peaks)
-        place = [peaks(i)%xi*linkage%bodies(body)%length, 0.0_wp]
+        place = [peaks(i)%xi*structure%elastic%linkage%bodies(body)%length, 0.0_wp]
         here = place_series(level%grid, body, place, solution%y)
         call resample(level%plan, here, above%plan, moved)
         moved = moved - place_series(above%grid, body, place, better%y)

@@ -6,7 +6,6 @@
 !! that would follow, which three solutions tell. Vibrations too fast for the steps are in no
 !! solution; what steps miss of them is added.
 module transient_responses
-  use beam_mesh, only: beam_t
   use constants, only: two_pi
   use crank_laws, only: constant_from, covered_range_t, crank_law_t, crank_motion, extremes_of, &
     time_of_turns
@@ -17,7 +16,7 @@ module transient_responses
   use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
-  use linkages, only: gives_angle, linkage_t
+  use linkages, only: gives_angle
   use part_requests, only: join_largest, request_of_parts
   use path_grids, only: new_path_grid, place_grid
   use poses, only: find_pose, pose_t
@@ -418,11 +417,9 @@ contains
     real(wp), intent(in) :: missed(:) !! (quantities) by steps
     type(speed_transient_t), intent(inout) :: found
 
-    type(beam_t), allocatable :: beams(:)
     real(wp) :: change(size(series, 2))
     integer :: first, i, k, n
 
-    beams = structure%elastic%beams
     n = size(series, 1)
     change = missed + safety*what_remains(maxval(abs(series - before), dim=1), maxval(abs(before - &
       older), dim=1), found%order)
@@ -436,8 +433,9 @@ contains
       do i = 1, size(gauges)
         first = of_point*size(points) + of_gauge*(i - 1) + 1
         do k = 1, n
-          found%strain(:, i, k) = gauge_values_of(gauges(i), beams(gauges(i)%body), &
-            request%response%section(gauges(i)%body), series(k, first), series(k, first + 1))
+          found%strain(:, i, k) = gauge_values_of(gauges(i), &
+            structure%elastic%beams(gauges(i)%body), request%response%section(gauges(i)%body), &
+            series(k, first), series(k, first + 1))
         end do
       end do
     end associate
@@ -457,11 +455,9 @@ contains
     real(wp), intent(out) :: displacement(:) !! (points)
     real(wp), intent(out) :: strain(:)       !! (gauges)
 
-    type(linkage_t) :: linkage
     real(wp) :: largest(size(series, 2)), far(size(displacement)), least, tension, bend, turn
     integer :: first, i
 
-    linkage = structure%elastic%linkage
     largest = maxval(abs(series), dim=1)
     do i = 1, size(displacement)
       first = of_point*(i - 1) + 1
@@ -474,8 +470,8 @@ contains
     do i = 1, size(displacement)
       first = of_point*(i - 1) + 1
       displacement(i) = max(norm2(change(first:first + 1))/far(i), change(first + 2)/ &
-        max(largest(first + 2), by_nature*far(i)/linkage%bodies(request%response%points(i)% &
-        body)%length, turn))
+        max(largest(first + 2), by_nature*far(i)/structure%elastic%linkage%bodies( &
+        request%response%points(i)%body)%length, turn))
     end do
     do i = 1, size(strain)
       first = of_point*size(displacement) + of_gauge*(i - 1) + 1

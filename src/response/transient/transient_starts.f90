@@ -9,7 +9,6 @@ module transient_starts
     open_fourier, value_at
   use kinds, only: wp
   use lapack, only: dsygvx
-  use linkages, only: linkage_t
   use link_store, only: link_store_t
   use motion_matrices, only: find_motion_matrices, motion_matrices_t, stiffness_at
   use path_grids, only: place_grid
@@ -206,7 +205,6 @@ contains
     real(wp), intent(out) :: shape(:)                 !! (unknowns) y of 1 m
     type(error_t), allocatable, intent(out) :: error
 
-    type(linkage_t) :: linkage
     real(wp), dimension(size(shape), size(shape)) :: mass, stiffness
     real(wp) :: value(size(shape)), vector(size(shape), 1), work(8*size(shape)), moved(1, 3)
     real(wp) :: largest, across, here
@@ -233,11 +231,10 @@ contains
     shape = vector(:, 1)
     largest = 0.0_wp
     across = 0.0_wp
-    linkage = structure%elastic%linkage
-    do b = 1, size(linkage%bodies)
+    do b = 1, size(structure%elastic%body)
       do i = 0, places
-        moved = place_series(grid, b, [linkage%bodies(b)%length*i/places, 0.0_wp], &
-          transpose(vector))
+        moved = place_series(grid, b, [structure%elastic%linkage%bodies(b)%length*i/places, &
+          0.0_wp], transpose(vector))
         largest = max(largest, norm2(moved(1, :2)))
         here = grid%direction(1, 1, b)*moved(1, 2) - grid%direction(1, 2, b)*moved(1, 1)
         if (2*i == places .and. abs(here) > abs(across)) across = here
