@@ -92,30 +92,15 @@ contains
     type(ledger_t), intent(inout) :: counts          !! of the work done
     type(error_t), allocatable, intent(out) :: error !! why there is no model
 
-    call choose(structure, structure%elastic%linkage, structure%elastic%beams, positions, demand, &
-      store, model, counts, error)
-  end subroutine choose_orders
-
-  !> Chooses the orders of the links of a model, which are the bodies of a linkage.
-  subroutine choose(structure, linkage, beams, positions, demand, store, model, counts, error)
-    type(structure_t), intent(in) :: structure
-    type(linkage_t), intent(in) :: linkage
-    type(beam_t), intent(in) :: beams(:)
-    type(positions_t), intent(in) :: positions
-    type(order_demand_t), intent(in) :: demand
-    type(link_store_t), intent(inout) :: store
-    type(deformation_model_t), intent(out) :: model
-    type(ledger_t), intent(inout) :: counts
-    type(error_t), allocatable, intent(out) :: error
-
     type(sample_t) :: sample
-    type(link_degrees_t) :: degrees(size(beams)), highest(size(beams))
+    type(link_degrees_t), dimension(size(structure%elastic%body)) :: degrees, highest
     integer, allocatable :: chosen(:)
     real(wp) :: part_bound
     integer :: b, pieces, bending, first
     logical :: raised
 
-    associate (modes => demand%modes)
+    associate (modes => demand%modes, linkage => structure%elastic%linkage, &
+      beams => structure%elastic%beams)
       part_bound = share*demand%bound
       chosen = sample_states(positions, demand%states)
       bending = max(1, count(linkage%bodies%bends))
@@ -128,7 +113,7 @@ contains
       call make_model(model, error)
       if (allocated(error) .or. size(chosen) == 0) return
       ! One position is enough to estimate the shortest wave.
-      call try_samples(structure, linkage, model, positions, chosen(size(chosen)/2 + &
+      call try_samples(structure, model, positions, chosen(size(chosen)/2 + &
         1:size(chosen)/2 + 1), demand, sample, counts)
       do b = 1, size(beams)
         if (linkage%bodies(b)%bends) degrees(b) = &
@@ -143,7 +128,7 @@ contains
       do
         call make_model(model, error)
         if (allocated(error)) return
-        call try_samples(structure, linkage, model, positions, chosen, demand, sample, counts)
+        call try_samples(structure, model, positions, chosen, demand, sample, counts)
         raised = .false.
         do b = 1, size(beams)
           if (linkage%bodies(b)%bends) call raise_degrees(waves_in(linkage%bodies(b), &
@@ -161,14 +146,14 @@ contains
 
       integer :: i
 
-      call new_deformation_model(linkage, beams, spread(0, 1, size(degrees)), spread(0, 1, &
-        size(degrees)), spread(.false., 1, size(degrees)), model, error, store, degrees, &
-        structure%elastic%held)
+      call new_deformation_model(structure%elastic%linkage, structure%elastic%beams, spread(0, 1, &
+        size(degrees)), spread(0, 1, size(degrees)), spread(.false., 1, size(degrees)), model, &
+        error, store, degrees, structure%elastic%held)
       if (.not. allocated(error)) call choose_form(structure, demand%modes, &
         [(positions%states(chosen(i))%crank, i=1, size(chosen))], model)
     end subroutine make_model
 
-  end subroutine choose
+  end subroutine choose_orders
 
   !> The limits of the degrees of a link.
   pure function highest_degrees(pieces, modes, bending, sheared) result(highest)
@@ -355,9 +340,8 @@ contains
   end function raised_order
 
   !> Solves the samples at the lowest and the highest speed.
-  subroutine try_samples(structure, linkage, model, positions, chosen, demand, sample, counts)
+  subroutine try_samples(structure, model, positions, chosen, demand, sample, counts)
     type(structure_t), intent(in) :: structure
-    type(linkage_t), intent(in) :: linkage
     type(deformation_model_t), intent(in) :: model
     type(positions_t), intent(in) :: positions
     integer, intent(in) :: chosen(:)        !! numbers of the sampled states
@@ -398,7 +382,7 @@ contains
       do k = 1, size(found)
         if (allocated(outcome(k)%error)) cycle
         present_force = total_force(here%unit_force, tried(:, k))
-        call add_force_range(linkage, present_force, sample)
+        call add_force_range(structure%elastic%linkage, present_force, sample)
         sample%highest = max(sample%highest, maxval(abs(found(k)%lambda(:demand%modes))))
         if (allocated(here%mixed)) then
           call modes_of_position(here, found(k), work%equations, modes)
