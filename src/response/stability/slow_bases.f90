@@ -36,6 +36,10 @@ module slow_bases
   !! perpendicular again.
   real(wp), parameter :: enough_left = 1.0e-3_wp
 
+  !> Deformations with no more than this share of the largest 1/ω² move no mass: a vibration of them
+  !! is nothing but rounding in the steps of a slow motion.
+  real(wp), parameter :: least_square = epsilon(1.0_wp)
+
   !> The slow coordinates over the turn, for any speed.
   type :: slow_basis_t
     integer :: number = 0
@@ -68,13 +72,17 @@ module slow_bases
 contains
 
   !> Number of slow coordinates: deformations whose own frequency is below a limit, and one more; at
-  !! least three, so that the slowest of all are found well.
+  !! least three, so that the slowest of all are found well, of those that move mass.
   pure function slow_count(grid, limit) result(number)
     type(turn_grid_t), intent(in) :: grid
     real(wp), intent(in) :: limit !! [rad/s]
     integer :: number
 
-    number = min(grid%unknowns, max(3, count(own_squares(grid)*limit**2 > 1.0_wp) + 1))
+    real(wp) :: square(grid%unknowns)
+
+    square = own_squares(grid)
+    number = min(max(3, count(square*limit**2 > 1.0_wp) + 1), max(1, count(square > &
+      least_square*maxval(square))))
   end function slow_count
 
   !> 1/ω² of every deformation by itself, 0 of the slow ones [s²].
