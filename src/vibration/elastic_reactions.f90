@@ -9,6 +9,7 @@ module elastic_reactions
   use coordinates, only: evaluated_t
   use deformation_model, only: deformation_model_t, new_deformation_model
   use elastic_linkages, only: elastic_linkage_t, new_elastic_linkage, shared_pin
+  use elastic_positions, only: elastic_position_t
   use errors, only: error_of_input, error_t, set_error
   use group_factors, only: factorize_groups, group_factors_t
   use inertia_loads, only: load_t, lumped_masses, lumped_stations
@@ -22,8 +23,8 @@ module elastic_reactions
   use part_displacements, only: border_size
   use part_efforts, only: add_end_couple, add_friction_effort, add_moving_efforts, effort_case, &
     no_part_loads
-  use part_forces, only: find_part_forces, part_forces_t
-  use part_poses, only: part_loads_t
+  use part_force_types, only: loaded_parts_t, part_loads_t
+  use part_forces, only: find_part_forces
   use part_reactions, only: take_part_reactions
   use pin_displacements, only: chords_t
   use poses, only: arm_to_place, pose_t
@@ -35,7 +36,7 @@ module elastic_reactions
   implicit none (type, external)
   private
 
-  public :: elastic_division_t, elastic_position_t, new_elastic_division, new_elastic_model, &
+  public :: elastic_division_t, divided_position_t, new_elastic_division, new_elastic_model, &
     divide_by_elasticity, find_divided, divide_motion, self_stresses, least_open
 
   !> Orders of the links: their border alone carries loads.
@@ -51,11 +52,11 @@ module elastic_reactions
   end type elastic_division_t
 
   !> The linkage at a position.
-  type :: elastic_position_t
+  type :: divided_position_t
     type(assembled_t) :: here
     type(chords_t) :: chords
     type(pose_t) :: pose                      !! of the linkage that moves
-  end type elastic_position_t
+  end type divided_position_t
 
 contains
 
@@ -157,28 +158,25 @@ contains
   !> The forces in the parts where masses sit on nodes.
   pure subroutine load_nodes(division, at)
     type(elastic_division_t), intent(in) :: division
-    type(elastic_position_t), intent(inout) :: at
+    type(divided_position_t), intent(inout) :: at
 
-    call lump_loads(division, at, at%here%part_loads)
-    call find_forces(division, at, at%here%part_loads, at%here%part_forces)
+    call lump_loads(division, at%here%elastic_position_t, at%here%loaded%loads)
+    call find_forces(division, at, at%here%loaded)
   end subroutine load_nodes
 
   !> The forces in the parts under loads.
-  pure subroutine find_forces(division, at, loads, forces)
+  pure subroutine find_forces(division, at, loaded)
     type(elastic_division_t), intent(in) :: division
-    type(elastic_position_t), intent(in) :: at
-    type(part_loads_t), intent(in) :: loads
-    type(part_forces_t), intent(out) :: forces
+    type(divided_position_t), intent(in) :: at
+    type(loaded_parts_t), intent(inout) :: loaded !! with loads; gets their forces
 
     real(wp), allocatable :: solution(:, :)
 
-    associate (here => at%here)
+    associate (here => at%here, linkage => division%structure%linkage)
       if (allocated(here%mixed)) then
-        call find_mixed_forces(division%structure%linkage, here%elastic, here%model%links, &
-          here%pose, loads, here%mixed, forces, solution)
+        call find_mixed_forces(linkage, here%elastic_position_t, here%mixed, loaded, solution)
       else
-        call find_part_forces(division%structure%linkage, here%elastic, here%model%links, &
-          here%pose, loads, here%border, at%chords, forces)
+        call find_part_forces(linkage, here%elastic_position_t, here%border, at%chords, loaded)
       end if
     end associate
   end subroutine find_forces
@@ -193,7 +191,7 @@ contains
     real(wp) :: force(2)
     integer :: c, i, k, n, number
 
-    associate (elastic => at%here%elastic)
+    associate (elastic => at%elastic)
       do c = 1, case_count
         if (.not. loads%unit%occurs(c)) cycle
         number = size(elastic%linkage%loads)
@@ -208,7 +206,7 @@ contains
                 masses(i)%place(2))
               case%place_force(:, number) = force
               case%body_force(:, k) = case%body_force(:, k) + force
-              case%couple(k) = case%couple(k) + cross(arm_to_place(at%here%pose, k, &
+              case%couple(k) = case%couple(k) + cross(arm_to_place(at%pose, k, &
                 masses(i)%place), force)
             end do
             case%field%at_first(:, k) = 0.0_wp
@@ -227,7 +225,7 @@ contains
     type(pose_t), intent(in) :: pose                           !! away from dead points
     type(kinematic_coefficients_t), intent(in) :: coefficients !! at the pose
     type(unit_reactions_t), intent(inout) :: unit              !! by statics
-    type(elastic_position_t), intent(out) :: at                !! for other loads
+    type(divided_position_t), intent(out) :: at                !! for other loads
     type(error_t), allocatable, intent(out) :: error
 
     integer :: i
@@ -243,8 +241,8 @@ contains
     if (allocated(error)) return
     if (any(division%structure%load_elements > 0)) call load_nodes(division, at)
     do i = 1, case_count
-      call find_case_forces(division, at, at%here%part_loads, at%here%part_forces, i, &
-        unit%of_case(i)%joints)
+      call take_part_reactions(division%structure%linkage, at%here%elastic_position_t, &
+        at%here%loaded, i, unit%of_case(i)%joints)
     end do
   end subroutine divide_by_elasticity
 
@@ -253,7 +251,7 @@ contains
   !! Errors: friction depends on a force that is open.
   pure subroutine find_divided(division, at, coefficients, speed, divided, error)
     type(elastic_division_t), intent(in) :: division
-    type(elastic_position_t), intent(in) :: at                 !! of `divide_by_elasticity`
+    type(divided_position_t), intent(in) :: at                 !! of `divide_by_elasticity`
     type(kinematic_coefficients_t), intent(in) :: coefficients !! there
     real(wp), intent(in) :: speed                              !! of the first drive [rad/s], [m/s]
     type(divided_t), intent(inout) :: divided                  !! friction that is there is kept
@@ -279,49 +277,28 @@ contains
     end associate
   end subroutine find_divided
 
-  !> The forces in the joints of a load case.
-  pure subroutine find_case_forces(division, at, loads, forces, case, joints, given, open)
-    type(elastic_division_t), intent(in) :: division
-    type(elastic_position_t), intent(in) :: at
-    type(part_loads_t), intent(in) :: loads
-    type(part_forces_t), intent(in) :: forces
-    integer, intent(in) :: case
-    type(joint_forces_t), intent(inout) :: joints
-    real(wp), intent(in), optional :: given(:)
-    integer, allocatable, intent(out), optional :: open(:)
-
-    if (allocated(at%here%mixed)) then
-      call take_part_reactions(division%structure%linkage, at%here%elastic, at%here%model%links, &
-        at%here%pose, loads, at%here%mixed%form%numbers, forces, case, joints, given, open)
-    else
-      call take_part_reactions(division%structure%linkage, at%here%elastic, at%here%model%links, &
-        at%here%pose, loads, at%here%border%numbers, forces, case, joints, given, open)
-    end if
-  end subroutine find_case_forces
-
   !> The forces in the joints under other loads.
-  pure subroutine find_effort_forces(division, at, loads, joints)
+  pure subroutine find_effort_forces(division, at, loaded, joints)
     type(elastic_division_t), intent(in) :: division
-    type(elastic_position_t), intent(in) :: at
-    type(part_loads_t), intent(in) :: loads
+    type(divided_position_t), intent(in) :: at
+    type(loaded_parts_t), intent(inout) :: loaded !! with loads; gets their forces
     type(joint_forces_t), intent(inout) :: joints !! of statics: those of drives are kept
 
-    type(part_forces_t) :: forces
-
-    call find_forces(division, at, loads, forces)
-    call find_case_forces(division, at, loads, forces, effort_case, joints)
+    call find_forces(division, at, loaded)
+    call take_part_reactions(division%structure%linkage, at%here%elastic_position_t, loaded, &
+      effort_case, joints)
   end subroutine find_effort_forces
 
   !> Forces in the joints that balance the loads that depend on the speed, but for friction.
   pure subroutine divide_moving(division, at, coefficients, speed, joints)
     type(elastic_division_t), intent(in) :: division
-    type(elastic_position_t), intent(in) :: at                 !! of `divide_by_elasticity`
+    type(divided_position_t), intent(in) :: at                 !! of `divide_by_elasticity`
     type(kinematic_coefficients_t), intent(in) :: coefficients !! there
     real(wp), intent(in) :: speed                              !! of the first drive [rad/s], [m/s]
     type(joint_forces_t), intent(out) :: joints
 
     type(kinematic_coefficients_t) :: now
-    type(part_loads_t) :: loads
+    type(loaded_parts_t) :: loaded
     type(load_t) :: body_load(size(division%structure%linkage%bodies))
     type(evaluated_t), allocatable :: along(:)
     real(wp) :: pin_load(2, size(division%structure%linkage%is_ground))
@@ -336,19 +313,19 @@ contains
       call evaluate_loads(linkage, at%pose, along)
       call add_moving_loads(linkage, at%pose, along, now, body_load, pin_load)
       joints = find_joint_forces(linkage, at%pose, body_load, pin_load)
-      loads = no_part_loads(at%here%elastic)
-      call add_moving_efforts(linkage, at%pose, now, at%here%elastic, at%here%pose, loads)
+      loaded%loads = no_part_loads(at%here%elastic)
+      call add_moving_efforts(linkage, at%pose, now, at%here%elastic_position_t, loaded%loads)
     end associate
-    call find_effort_forces(division, at, loads, joints)
+    call find_effort_forces(division, at, loaded, joints)
   end subroutine divide_moving
 
   !> Forces in the joints that balance an effort of one in each joint that rubs.
   pure subroutine divide_friction(division, at, joints)
     type(elastic_division_t), intent(in) :: division
-    type(elastic_position_t), intent(in) :: at                     !! of `divide_by_elasticity`
+    type(divided_position_t), intent(in) :: at                     !! of `divide_by_elasticity`
     type(joint_forces_t), allocatable, intent(out) :: joints(:)    !! (frictions)
 
-    type(part_loads_t) :: loads
+    type(loaded_parts_t) :: loaded
     type(load_t) :: body_load(size(division%structure%linkage%bodies))
     type(group_factors_t), allocatable :: factors(:)
     type(rubbing_t), allocatable :: rubbing(:)
@@ -369,9 +346,9 @@ contains
         effort(k) = 1.0_wp
         call put_friction(linkage, at%pose, rubbing, effort, body_load, pin_load)
         joints(k) = find_joint_forces(linkage, at%pose, body_load, pin_load, factors)
-        loads = no_part_loads(at%here%elastic)
-        call add_friction_effort(linkage, at%pose, k, at%here%elastic, at%here%pose, loads)
-        call find_effort_forces(division, at, loads, joints(k))
+        loaded%loads = no_part_loads(at%here%elastic)
+        call add_friction_effort(linkage, at%pose, k, at%here%elastic_position_t, loaded%loads)
+        call find_effort_forces(division, at, loaded, joints(k))
       end do
     end associate
   end subroutine divide_friction
@@ -390,9 +367,8 @@ contains
     type(joint_forces_t), allocatable, intent(out) :: states(:) !! of self-stress
     type(error_t), allocatable, intent(out) :: error
 
-    type(elastic_position_t) :: at
-    type(deformation_model_t) :: model
-    type(part_loads_t) :: loads
+    type(divided_position_t) :: at
+    type(loaded_parts_t) :: loaded
     integer :: unknowns, free, i
 
     at%pose = pose
@@ -402,30 +378,29 @@ contains
       at%here%loads = find_unit_loads(linkage, pose, motion, [.true., .false., .true.])
       call place_parts(division%structure, division%model, pose, at%here, error)
       if (allocated(error)) return
-      call border_size(at%here%border, at%here%elastic, at%here%model%links, at%here%pose, &
-        unknowns, free)
-      model = division%model
-      model%layout%border = unknowns
-      model%layout%free = count(linkage%drives%kind == drive_of_angle)
-      call load_parts(division%structure, model, pose, at%here, at%chords, error)
+      call border_size(at%here%elastic_position_t, unknowns, free)
+      at%here%model%layout%border = unknowns
+      at%here%model%layout%free = count(linkage%drives%kind == drive_of_angle)
+      call load_parts(division%structure, division%model, pose, at%here, at%chords, error)
       if (allocated(error)) return
       if (any(division%structure%load_elements > 0)) call load_nodes(division, at)
       joints = no_joint_forces(linkage)
       do i = 1, case_count
-        if (at%here%loads%occurs(i)) call add_case(i)
+        if (at%here%loads%occurs(i)) call add_forces(at%here%loaded, i)
       end do
-      loads = no_part_loads(at%here%elastic)
+      loaded%loads = no_part_loads(at%here%elastic)
       if (has_moving_loads(linkage)) call add_moving_efforts(linkage, pose, motion, &
-        at%here%elastic, at%here%pose, loads)
+        at%here%elastic_position_t, loaded%loads)
       associate (drive => linkage%drives(1))
         if (drive%kind == drive_of_angle) then
           call add_end_couple(at%here%elastic, drive%body, shared_pin(linkage, drive%body, &
-            drive%against), drive_force, loads)
+            drive%against), drive_force, loaded%loads)
           if (drive%against > 0) call add_end_couple(at%here%elastic, drive%against, &
-            shared_pin(linkage, drive%body, drive%against), -drive_force, loads)
+            shared_pin(linkage, drive%body, drive%against), -drive_force, loaded%loads)
         end if
       end associate
-      call add_efforts(loads)
+      call find_forces(division, at, loaded)
+      call add_forces(loaded, effort_case)
       joints%drive(1) = drive_force
       joints%torque = drive_force
     end associate
@@ -434,26 +409,17 @@ contains
   contains
 
     !> Adds the forces of a load case.
-    subroutine add_case(case)
+    subroutine add_forces(of_loads, case)
+      type(loaded_parts_t), intent(in) :: of_loads
       integer, intent(in) :: case
 
       type(joint_forces_t) :: of_case
 
       of_case = no_joint_forces(division%structure%linkage)
-      call find_case_forces(division, at, at%here%part_loads, at%here%part_forces, case, of_case)
+      call take_part_reactions(division%structure%linkage, at%here%elastic_position_t, of_loads, &
+        case, of_case)
       call add_scaled(joints, 1.0_wp, of_case)
-    end subroutine add_case
-
-    !> Adds the forces of other loads.
-    subroutine add_efforts(others)
-      type(part_loads_t), intent(in) :: others
-
-      type(joint_forces_t) :: of_others
-
-      of_others = no_joint_forces(division%structure%linkage)
-      call find_effort_forces(division, at, others, of_others)
-      call add_scaled(joints, 1.0_wp, of_others)
-    end subroutine add_efforts
+    end subroutine add_forces
 
   end subroutine divide_motion
 
@@ -461,29 +427,29 @@ contains
   !! links hold each other. The largest force of each is one, moments divided by the longest link.
   pure function self_stresses(division, at) result(states)
     type(elastic_division_t), intent(in) :: division
-    type(elastic_position_t), intent(in) :: at              !! of `divide_by_elasticity`
+    type(divided_position_t), intent(in) :: at              !! of `divide_by_elasticity`
     type(joint_forces_t), allocatable :: states(:)
 
-    type(part_loads_t) :: loads
-    type(part_forces_t) :: forces
+    type(loaded_parts_t) :: loaded
     type(joint_forces_t) :: joints
     integer, allocatable :: open(:)
     real(wp), allocatable :: given(:)
     integer :: i, j, k, n
 
-    loads = no_part_loads(at%here%elastic)
-    forces = at%here%part_forces
-    forces%guide = 0.0_wp
-    forces%weighted = 0.0_wp
-    forces%spring = 0.0_wp
-    forces%drive = 0.0_wp
-    forces%constraint = 0.0_wp
-    joints = no_joint_forces(division%structure%linkage)
-    call find_case_forces(division, at, loads, forces, effort_case, joints, open=open)
-    ! In mixed form no constraint follows from others.
-    n = 0
-    if (allocated(at%here%border)) n = at%here%border%basis%idle_constraints
-    associate (size_of => maxval(at%here%elastic%linkage%bodies%length))
+    loaded%loads = no_part_loads(at%here%elastic)
+    loaded%forces = at%here%loaded%forces
+    associate (forces => loaded%forces, linkage => division%structure%linkage, &
+        parts => at%here%elastic_position_t)
+      forces%guide = 0.0_wp
+      forces%weighted = 0.0_wp
+      forces%spring = 0.0_wp
+      forces%drive = 0.0_wp
+      forces%constraint = 0.0_wp
+      joints = no_joint_forces(linkage)
+      call take_part_reactions(linkage, parts, loaded, effort_case, joints, open=open)
+      ! In mixed form no constraint follows from others.
+      n = 0
+      if (allocated(at%here%border)) n = at%here%border%basis%idle_constraints
       allocate (states(n + size(open)), given(size(open)))
       do i = 1, size(states)
         given = 0.0_wp
@@ -493,15 +459,13 @@ contains
         else
           given(i - n) = 1.0_wp
         end if
-        if (n > 0) then
-          do k = 1, size(at%here%border%numbers%line_constraint)
-            j = at%here%border%numbers%line_constraint(k)
-            if (j > 0) forces%guide(k, effort_case) = -forces%constraint(j, effort_case)
-          end do
-        end if
-        states(i) = no_joint_forces(division%structure%linkage)
-        call find_case_forces(division, at, loads, forces, effort_case, states(i), given)
-        call scale(size_of, states(i))
+        do k = 1, merge(size(parts%numbers%line_constraint), 0, n > 0)
+          j = parts%numbers%line_constraint(k)
+          if (j > 0) forces%guide(k, effort_case) = -forces%constraint(j, effort_case)
+        end do
+        states(i) = no_joint_forces(linkage)
+        call take_part_reactions(linkage, parts, loaded, effort_case, states(i), given)
+        call scale(maxval(parts%elastic%linkage%bodies%length), states(i))
       end do
     end associate
 

@@ -5,7 +5,8 @@ module position_assembly
   use bordered_matrix, only: new_bordered_layout
   use carried_bodies, only: add_carried_mass
   use deformation_model, only: deformation_model_t, renew_link
-  use elastic_linkages, only: elastic_linkage_t, is_piece
+  use elastic_linkages, only: is_piece
+  use elastic_positions, only: elastic_position_t, new_elastic_position
   use errors, only: error_t, outcome_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
@@ -15,9 +16,10 @@ module position_assembly
   use load_cases, only: find_unit_loads, unit_loads_t
   use mixed_positions, only: assemble_rest, find_mixed_forces, hold, mixed_position_t, &
     new_mixed_position, stiffen
-  use part_displacements, only: border_size, border_t, find_part_chords, new_border
-  use part_forces, only: find_dyad_forces, find_part_forces, part_forces_t
-  use part_poses, only: find_part_loads, part_loads_t, place_parts_of
+  use part_displacements, only: border_size, border_t, find_part_chords
+  use part_force_types, only: loaded_parts_t
+  use part_forces, only: find_dyad_forces, find_part_forces
+  use part_poses, only: find_part_loads, place_parts_of
   use pin_displacements, only: chords_t
   use poses, only: pose_t
   use position_equations, only: assemble_mass, assemble_unit_loads, position_equations_t
@@ -28,16 +30,12 @@ module position_assembly
   public :: assembled_t, new_assembled, assemble_position, choose_form, set_border, place_parts, &
     load_parts, load_mixed
 
-  !> A linkage at a position.
-  type :: assembled_t
+  !> A linkage at a position, with its loads.
+  type, extends(elastic_position_t) :: assembled_t
     type(unit_loads_t) :: loads                  !! of this pose
     real(wp), allocatable :: unit_force(:, :, :) !! (force functions, parts, cases) axial forces of
                                                  !! the unit loads [N]
-    type(elastic_linkage_t) :: elastic           !! its parts here
-    type(deformation_model_t) :: model           !! their own modes here
-    type(pose_t) :: pose                         !! of points and parts
-    type(part_loads_t) :: part_loads
-    type(part_forces_t) :: part_forces
+    type(loaded_parts_t) :: loaded               !! what they do to its parts
     type(border_t), allocatable :: border        !! of few links
     type(mixed_position_t), allocatable :: mixed !! of many
     real(wp), allocatable :: damper_rows(:, :)   !! (border, dampers) velocity of each for unit
@@ -52,12 +50,12 @@ contains
     type(deformation_model_t), intent(in) :: model !! of its parts
     type(assembled_t) :: here
 
-    here%elastic = structure%elastic
-    here%model = model
+    here%elastic_position_t = new_elastic_position(structure%elastic, model)
     if (model%mixed) then
-      here%mixed = new_mixed_position(structure%elastic, model%links)
+      here%mixed = new_mixed_position(here%elastic_position_t)
     else
-      here%border = new_border(structure%elastic, model%links)
+      allocate (here%border)
+      allocate (here%border%primary(0))
     end if
   end function new_assembled
 
@@ -82,7 +80,7 @@ contains
         if (allocated(error)) cycle
         call place_parts(structure, model, pose, here, error)
         if (allocated(error)) cycle
-        call assemble_rest(here%elastic, here%model%links, here%pose, here%mixed)
+        call assemble_rest(here%elastic_position_t, here%mixed)
         call hold(here%pose, here%mixed, error)
         if (.not. allocated(error)) return
       end do
@@ -111,7 +109,7 @@ contains
       if (allocated(error)) cycle
       call place_parts(structure, model, pose, here, error)
       if (allocated(error)) cycle
-      call border_size(here%border, here%elastic, here%model%links, here%pose, unknowns, free)
+      call border_size(here%elastic_position_t, unknowns, free)
       if (free >= least) cycle
       least = free
       model%layout = new_bordered_layout(unknowns, model%links%modes, model%links%axial_modes, free)
@@ -153,9 +151,8 @@ contains
       return
     end if
     if (size(here%elastic%dampers) > 0) here%damper_rows = &
-      matmul(transpose(here%border%basis%unknown), damper_rows(here%elastic, &
-      here%border%numbers, here%pose))
-    here%unit_force = here%part_forces%axial
+      matmul(transpose(here%border%basis%unknown), damper_rows(here%elastic_position_t))
+    here%unit_force = here%loaded%forces%axial
     call refuse_crushed(here%elastic%linkage, here%model, here%unit_force, factor, outcome)
     do i = 1, size(outcome)
       if (.not. allocated(outcome(i)%error)) cycle
@@ -171,7 +168,7 @@ contains
     call assemble_mass(here%elastic%linkage, here%model, equations)
     call add_carried_mass(here%elastic, here%pose, equations%chords, equations%pencil%mass%border)
     call assemble_unit_loads(here%model, here%unit_force, factor, equations, counts, &
-      here%part_forces%second_order)
+      here%loaded%forces%second_order)
   end subroutine assemble_position
 
   !> Places the parts, and finds what the border unknowns do to them and the forces in them.
@@ -187,18 +184,18 @@ contains
 
     call place_parts(structure, model, pose, here, error)
     if (allocated(error)) return
-    call find_part_chords(structure%linkage, here%elastic, here%model%links, here%pose, &
-      model%layout%border, model%layout%free, any(here%loads%occurs), here%border, chords, error)
+    call find_part_chords(structure%linkage, here%elastic_position_t, any(here%loads%occurs), &
+      here%border, chords, error)
     if (allocated(error)) return
     if (any(here%loads%occurs) .or. .not. here%elastic%in_closed_form) call find_part_loads( &
-      structure%linkage, pose, here%loads, here%elastic, here%pose, here%part_loads)
+      structure%linkage, pose, here%loads, here%elastic_position_t, here%loaded%loads)
     if (here%elastic%in_closed_form) then
       call find_dyad_forces(structure%linkage, pose, here%loads, here%model%links, chords, &
-        here%part_forces)
+        here%loaded%forces)
       return
     end if
-    call find_part_forces(structure%linkage, here%elastic, here%model%links, here%pose, &
-      here%part_loads, here%border, chords, here%part_forces)
+    call find_part_forces(structure%linkage, here%elastic_position_t, here%border, chords, &
+      here%loaded)
   end subroutine load_parts
 
   !> Places the parts, and finds their matrices and forces in mixed form, and K_G if it is asked
@@ -217,17 +214,14 @@ contains
 
     call place_parts(structure, model, pose, here, error)
     if (allocated(error)) return
-    call find_part_loads(structure%linkage, pose, here%loads, here%elastic, here%pose, &
-      here%part_loads)
-    associate (elastic => here%elastic, links => here%model%links, mixed => here%mixed)
-      call assemble_rest(elastic, links, here%pose, mixed)
+    associate (at => here%elastic_position_t, mixed => here%mixed)
+      call find_part_loads(structure%linkage, pose, here%loads, at, here%loaded%loads)
+      call assemble_rest(at, mixed)
       if (any(here%loads%occurs) .or. .not. with_stiffness) call hold(here%pose, mixed, error)
       if (allocated(error)) return
-      call find_mixed_forces(structure%linkage, elastic, links, here%pose, here%part_loads, mixed, &
-        here%part_forces, solution)
+      call find_mixed_forces(structure%linkage, at, mixed, here%loaded, solution)
       call move_alloc(solution, mixed%solution)
-      if (with_stiffness) call stiffen(elastic, links, here%pose, here%part_loads, &
-        here%part_forces, mixed)
+      if (with_stiffness) call stiffen(at, here%loaded, mixed)
     end associate
   end subroutine load_mixed
 

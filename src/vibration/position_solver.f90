@@ -14,13 +14,13 @@ module position_solver
   use massless_links, only: refuse_missing_modes
   use matrix_rounding, only: find_matrix_errors
   use mesh_solver, only: solve_mesh
+  use mixed_positions, only: displacements_of, find_mixed_prints, modes_on_border
   use mode_prints, only: prints_of
   use nodal_solver, only: solve_nodal
   use order_errors, only: order_error, with_modes_above
   use pin_displacements, only: chords_t
   use pose_rounding, only: pose_error
   use position_assembly, only: assemble_position, assembled_t, new_assembled
-  use position_modes, only: modes_of_position, prints_of_position, yields_of_position
   use position_results, only: frequency_error, largest_error, position_result_t, position_work_t
   use positions, only: state_t
   use reduced_deflections, only: reduced_deflection
@@ -130,18 +130,19 @@ contains
       .or. is_damped, work%continuum, found, result%outcome, result%counts, work%here%mixed)
     if (request%follow) allocate (result%prints(n))
     if (size(work%here%unit_force) > 0) then
-      if (allocated(work%here%mixed)) work%continuum%equations%chords = &
-        yields_of_position(work%here)
+      if (allocated(work%here%mixed)) work%continuum%equations%chords = displacements_of( &
+        work%here%mixed%form, work%here%elastic_position_t, work%here%mixed%solution)
       call find_deflection(work%continuum%equations%chords, work%here, factor, result%deflection)
     end if
     do k = 1, n
       if (allocated(result%outcome(k)%error)) cycle
       if (allocated(work%here%mixed)) then
-        call modes_of_position(work%here, found(k), work%continuum%equations, modes)
+        call modes_on_border(work%here%mixed, work%here%elastic_position_t, found(k), &
+          work%continuum%equations%chords, work%continuum%equations%pencil%mass%border, modes)
         call finish_speed(structure, state, request, factor(:, k), k, modes, work, result, found(k))
         call keep_speed(request, k, want_shapes(k), modes, work, result)
-        if (request%follow) call prints_of_position(work%here, found(k), request%modes, &
-          result%prints(k))
+        if (request%follow) call find_mixed_prints(work%here%mixed, work%here%model%links, &
+          found(k), request%modes, result%prints(k))
       else
         if (is_damped) then
           call solve_damped_speed(structure, state, request, factor(:, k), k, found(k), work, &
@@ -229,7 +230,7 @@ contains
     do i = 1, case_count
       if (.not. here%loads%occurs(i)) cycle
       call reduced_deflection(here%elastic%linkage, here%model%links, chords, here%pose, &
-        here%part_loads%unit%of_case(i), here%part_forces%border(:, i), unit(:, :, :, i))
+        here%loaded%loads%unit%of_case(i), here%loaded%forces%border(:, i), unit(:, :, :, i))
     end do
     ratio = 0.0_wp
     do k = 1, size(factor, 2)

@@ -183,19 +183,18 @@ contains
         here = new_assembled(mechanism, sample%model)
         call place_parts(mechanism, sample%model, sample%pose, here, error)
       end if
-      if (.not. allocated(error)) call find_part_chords(mechanism%linkage, here%elastic, &
-        here%model%links, here%pose, sample%model%layout%border, sample%model%layout%free, .true., &
-        here%border, sample%chords, error)
+      if (.not. allocated(error)) call find_part_chords(mechanism%linkage, &
+        here%elastic_position_t, .true., here%border, sample%chords, error)
       if (allocated(error)) then
         complaint = error%text
         return
       end if
       sample%coefficients = find_kinematic_coefficients(mechanism%linkage, sample%pose)
       here%loads = find_unit_loads(mechanism%linkage, sample%pose, sample%coefficients)
-      call find_part_loads(mechanism%linkage, sample%pose, here%loads, here%elastic, here%pose, &
-        here%part_loads)
-      call find_part_forces(mechanism%linkage, here%elastic, here%model%links, here%pose, &
-        here%part_loads, here%border, sample%chords, here%part_forces)
+      call find_part_loads(mechanism%linkage, sample%pose, here%loads, here%elastic_position_t, &
+        here%loaded%loads)
+      call find_part_forces(mechanism%linkage, here%elastic_position_t, here%border, &
+        sample%chords, here%loaded)
     end associate
   end subroutine find_sample
 

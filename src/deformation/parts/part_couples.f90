@@ -5,18 +5,16 @@
 !! is then known on the other link. Where ends hold each other in a closed chain, one couple stays
 !! indeterminate.
 module part_couples
-  use border_rows, only: border_unknowns_t
   use drive_rates, only: is_joint
   use elastic_linkages, only: elastic_linkage_t, spring_t
+  use elastic_positions, only: elastic_position_t
   use inertia_loads, only: load_t
   use joint_forces, only: joint_forces_t
   use kinds, only: wp
   use linkages, only: cross, drive_of_angle, linkage_t
   use load_cases, only: constant_case
-  use part_force_types, only: part_forces_t
-  use part_poses, only: part_loads_t
+  use part_force_types, only: loaded_parts_t
   use pose_types, only: arm_to_pin, pins_of_body
-  use poses, only: pose_t
   use rigid_part_loads, only: load_on_rigid
   implicit none (type, external)
   private
@@ -33,14 +31,10 @@ module part_couples
 contains
 
   !> The couples of a load case.
-  pure subroutine find_part_couples(linkage, elastic, pose, loads, numbers, forces, case, on_part, &
-    joints, given, open)
+  pure subroutine find_part_couples(linkage, at, loaded, case, on_part, joints, given, open)
     type(linkage_t), intent(in) :: linkage         !! that moves: its bodies, turns, drives
-    type(elastic_linkage_t), intent(in) :: elastic !! at this position
-    type(pose_t), intent(in) :: pose               !! of points and parts
-    type(part_loads_t), intent(in) :: loads        !! of this position
-    type(border_unknowns_t), intent(in) :: numbers !! of constraints
-    type(part_forces_t), intent(in) :: forces      !! of these loads
+    type(elastic_position_t), intent(in) :: at     !! of it, with parts that are placed
+    type(loaded_parts_t), intent(in) :: loaded     !! its loads and forces
     integer, intent(in) :: case                    !! number of the load case
     real(wp), intent(in) :: on_part(:, :)          !! (6, parts) forces on both ends of parts that
                                                    !! bend, then moments [N, N m]
@@ -93,16 +87,14 @@ contains
       end%body = body
       if (body == 0) return
       if (.not. linkage%bodies(body)%bends) then
-        end%moment = -moment_on_rigid(linkage, elastic, pose, loads, numbers, forces, case, body, &
-          joints)
+        end%moment = -moment_on_rigid(linkage, at, loaded, case, body, joints)
         return
       end if
       end%pin = pin
       if (slider > 0) then
-        if (elastic%contact(slider) > 0) end%pin = elastic%contact(slider)
+        if (at%elastic%contact(slider) > 0) end%pin = at%elastic%contact(slider)
       end if
-      end%moment = moment_on_end(linkage, elastic, loads, forces, case, on_part, body, end%pin, &
-        joints)
+      end%moment = moment_on_end(linkage, at%elastic, loaded, case, on_part, body, end%pin, joints)
     end function turned_end
 
   end subroutine find_part_couples
@@ -150,12 +142,11 @@ contains
 
   !> Moment that the couples of turns put on the end of a link that bends: what the parts there
   !! bear, less the moments of springs, drives and of what is fixed to it.
-  pure function moment_on_end(linkage, elastic, loads, forces, case, on_part, body, point, joints) &
+  pure function moment_on_end(linkage, elastic, loaded, case, on_part, body, point, joints) &
     result(moment)
     type(linkage_t), intent(in) :: linkage
     type(elastic_linkage_t), intent(in) :: elastic
-    type(part_loads_t), intent(in) :: loads
-    type(part_forces_t), intent(in) :: forces
+    type(loaded_parts_t), intent(in) :: loaded
     integer, intent(in) :: case
     real(wp), intent(in) :: on_part(:, :)
     integer, intent(in) :: body, point
@@ -179,13 +170,13 @@ contains
         end if
       end associate
     end do
-    moment = moment - moment_of_springs(elastic, loads, forces, case, body, rotation)
+    moment = moment - moment_of_springs(elastic, loaded, case, body, rotation)
     do k = 1, size(elastic%body)
       if (elastic%body(k) /= body) cycle
-      if (elastic%linkage%bodies(k)%first_pin == point) moment = moment - loads%end_couple(1, k, &
-        case)
-      if (elastic%linkage%bodies(k)%last_pin == point) moment = moment - loads%end_couple(2, k, &
-        case)
+      if (elastic%linkage%bodies(k)%first_pin == point) moment = moment - &
+        loaded%loads%end_couple(1, k, case)
+      if (elastic%linkage%bodies(k)%last_pin == point) moment = moment - &
+        loaded%loads%end_couple(2, k, case)
     end do
     do i = 1, size(linkage%drives)
       associate (drive => linkage%drives(i))
@@ -197,26 +188,22 @@ contains
       end associate
     end do
     do i = 1, size(elastic%carried)
-      if (elastic%carried(i)%body == body .and. elastic%carried(i)%point == point) moment = &
-        moment - loads%carried(3, i, case)
+      if (elastic%carried(i)%body == body .and. elastic%carried(i)%point == point) &
+        moment = moment - loaded%loads%carried(3, i, case)
     end do
     do i = 1, size(elastic%ways)
       if (elastic%ways(i)%body /= body) cycle
       k = findloc(elastic%ways(i)%cuts%point, point, dim=1)
       if (k > 0) moment = moment + elastic%ways(i)%cuts(k)%inertia* &
-        loads%unit%of_case(case)%field%angular(elastic%ways(i)%first_part)
+        loaded%loads%unit%of_case(case)%field%angular(elastic%ways(i)%first_part)
     end do
   end function moment_on_end
 
   !> Moment on a rigid link about its first pin of everything but the couples of turns.
-  pure function moment_on_rigid(linkage, elastic, pose, loads, numbers, forces, case, body, &
-    joints) result(moment)
+  pure function moment_on_rigid(linkage, at, loaded, case, body, joints) result(moment)
     type(linkage_t), intent(in) :: linkage
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(pose_t), intent(in) :: pose
-    type(part_loads_t), intent(in) :: loads
-    type(border_unknowns_t), intent(in) :: numbers
-    type(part_forces_t), intent(in) :: forces
+    type(elastic_position_t), intent(in) :: at
+    type(loaded_parts_t), intent(in) :: loaded
     integer, intent(in) :: case, body
     type(joint_forces_t), intent(in) :: joints
     real(wp) :: moment
@@ -224,15 +211,15 @@ contains
     type(load_t) :: load
     integer :: pins(2 + size(linkage%bodies(body)%further)), i, part, row
 
-    part = findloc(elastic%body, body, dim=1)
-    load = load_on_rigid(elastic, pose, loads, numbers, forces, case, part)
-    moment = load%moment + moment_of_springs(elastic, loads, forces, case, body, &
-      elastic%rotation(1, part))
+    part = findloc(at%elastic%body, body, dim=1)
+    load = load_on_rigid(at, loaded, case, part)
+    moment = load%moment + moment_of_springs(at%elastic, loaded, case, body, &
+      at%elastic%rotation(1, part))
     pins = pins_of_body(linkage%bodies(body))
     do i = 2, size(pins)
-      row = numbers%body_constraint(part) + 2*(i - 2)
-      moment = moment + cross(arm_to_pin(elastic%linkage, pose, part, pins(i)), &
-        forces%constraint(row + 1:row + 2, case))
+      row = at%numbers%body_constraint(part) + 2*(i - 2)
+      moment = moment + cross(arm_to_pin(at%elastic%linkage, at%pose, part, pins(i)), &
+        loaded%forces%constraint(row + 1:row + 2, case))
     end do
     do i = 1, size(linkage%drives)
       associate (drive => linkage%drives(i))
@@ -244,16 +231,15 @@ contains
   end function moment_on_rigid
 
   !> Moments of the springs and constant tensions that turn an end of a link.
-  pure function moment_of_springs(elastic, loads, forces, case, body, rotation) result(moment)
+  pure function moment_of_springs(elastic, loaded, case, body, rotation) result(moment)
     type(elastic_linkage_t), intent(in) :: elastic
-    type(part_loads_t), intent(in) :: loads
-    type(part_forces_t), intent(in) :: forces
+    type(loaded_parts_t), intent(in) :: loaded
     integer, intent(in) :: case, body
     integer, intent(in) :: rotation !! number of that of the end
     real(wp) :: moment
 
-    moment = moment_of(elastic%springs, forces%spring(:, case))
-    if (case == constant_case) moment = moment + moment_of(elastic%tensions, loads%tension)
+    moment = moment_of(elastic%springs, loaded%forces%spring(:, case))
+    if (case == constant_case) moment = moment + moment_of(elastic%tensions, loaded%loads%tension)
 
   contains
 

@@ -7,12 +7,14 @@ module part_efforts
   use coordinate_types, only: terminal_t
   use coordinates, only: evaluated_t
   use elastic_linkages, only: add_couple, elastic_linkage_t, spring_pin
+  use elastic_positions, only: elastic_position_t
   use group_equations, only: line_axis
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: cross, linkage_t
   use load_cases, only: case_count
-  use part_poses, only: highest_force, part_loads_t
+  use part_force_types, only: part_loads_t
+  use part_poses, only: highest_force
   use poses, only: arm_to_place, pose_t
   implicit none (type, external)
   private
@@ -53,13 +55,12 @@ contains
   end function no_part_loads
 
   !> Adds dampers, resistances, and loads that act in one direction of the motion only.
-  pure subroutine add_moving_efforts(linkage, pose, now, elastic, placed, loads)
+  pure subroutine add_moving_efforts(linkage, pose, now, at, loads)
     type(linkage_t), intent(in) :: linkage          !! that moves, with its loads
     type(pose_t), intent(in) :: pose                !! of it
     type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
-    type(elastic_linkage_t), intent(in) :: elastic  !! at this position; places of such forces on
-                                                    !! parts that bend are among its `forced`
-    type(pose_t), intent(in) :: placed              !! its points and parts
+    type(elastic_position_t), intent(in) :: at      !! of it; places of such forces on parts that
+                                                        !! bend are among its `forced`
     type(part_loads_t), intent(inout) :: loads      !! of these parts
 
     real(wp), allocatable :: pull(:)
@@ -73,19 +74,20 @@ contains
         if (.not. is_moving(load)) cycle
         select case (load%kind)
         case (applies_force)
-          call add_force(elastic, placed, i, load%at, moving_force(linkage, pose, now, &
-            load), loads)
+          call add_force(at%elastic, at%pose, i, load%at, moving_force(linkage, pose, now, load), &
+            loads)
         case (applies_couple)
-          call add_couple(elastic, load%at%body, moving_couple(linkage, pose, now, load), &
+          call add_couple(at%elastic, load%at%body, moving_couple(linkage, pose, now, load), &
             loads%unit%of_case(effort_case)%couple)
         case default
           do k = 1, 2
             associate (wrench => along(i)%wrench(k))
               if (is_torsional(load)) then
-                call add_end_couple(elastic, load%along%at(k)%body, spring_pin(linkage, i), &
-                  -pull(i)*wrench%couple, loads)
+                call add_end_couple(at%elastic, load%along%at(k)%body, spring_pin(linkage, &
+                  i), -pull(i)*wrench%couple, loads)
               else
-                call add_force(elastic, placed, i, load%along%at(k), -pull(i)*wrench%force, loads)
+                call add_force(at%elastic, at%pose, i, load%along%at(k), -pull(i)*wrench%force, &
+                  loads)
               end if
             end associate
           end do
@@ -95,12 +97,11 @@ contains
   end subroutine add_moving_efforts
 
   !> Adds the loads of a unit friction force or couple in a joint, as `put_friction` does.
-  pure subroutine add_friction_effort(linkage, pose, number, elastic, placed, loads)
+  pure subroutine add_friction_effort(linkage, pose, number, at, loads)
     type(linkage_t), intent(in) :: linkage          !! that moves, with its frictions
     type(pose_t), intent(in) :: pose                !! of it
     integer, intent(in) :: number                   !! of the friction
-    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
-    type(pose_t), intent(in) :: placed              !! its points and parts
+    type(elastic_position_t), intent(in) :: at      !! of it
     type(part_loads_t), intent(inout) :: loads      !! of these parts
 
     real(wp) :: force(2)
@@ -108,20 +109,21 @@ contains
 
     associate (rub => linkage%frictions(number), case => loads%unit%of_case(effort_case))
       if (rub%slider == 0) then
-        call add_end_couple(elastic, rub%body, rub%pin, 1.0_wp, loads)
-        call add_end_couple(elastic, rub%against, rub%pin, -1.0_wp, loads)
+        call add_end_couple(at%elastic, rub%body, rub%pin, 1.0_wp, loads)
+        call add_end_couple(at%elastic, rub%against, rub%pin, -1.0_wp, loads)
         return
       end if
       force = line_axis(linkage, pose, rub%slider)
       case%pin_force(:, rub%pin) = case%pin_force(:, rub%pin) + force
-      associate (carrier => linkage%sliders(rub%slider)%body, point => elastic%contact(rub%slider))
+      associate (carrier => linkage%sliders(rub%slider)%body, point => &
+        at%elastic%contact(rub%slider))
         if (point > 0) then
           case%pin_force(:, point) = case%pin_force(:, point) - force
         else if (carrier > 0) then
-          k = findloc(elastic%body, carrier, dim=1)
+          k = findloc(at%elastic%body, carrier, dim=1)
           case%body_force(:, k) = case%body_force(:, k) - force
-          case%couple(k) = case%couple(k) - cross(placed%pin(:, rub%pin) - placed%pin(:, &
-            elastic%linkage%bodies(k)%first_pin), force)
+          case%couple(k) = case%couple(k) - cross(at%pose%pin(:, rub%pin) - at%pose%pin(:, &
+            at%elastic%linkage%bodies(k)%first_pin), force)
         end if
       end associate
     end associate

@@ -1,10 +1,24 @@
-!> Forces in the parts of a linkage.
+!> Loads of the parts of a linkage, and forces in them.
 module part_force_types
   use kinds, only: wp
+  use load_cases, only: unit_loads_t
   implicit none (type, external)
   private
 
-  public :: part_forces_t
+  public :: part_loads_t, part_forces_t, loaded_parts_t
+
+  !> Loads of the parts, and what acts on rotations and lines of springs.
+  type :: part_loads_t
+    type(unit_loads_t) :: unit                      !! on parts and points
+    real(wp), allocatable :: moment(:, :)           !! (rotations, cases) [N m]
+    real(wp), allocatable :: pull(:)                !! (springs) at the pose, before the linkage
+                                                    !! yields [N] or [N m]
+    real(wp), allocatable :: end_couple(:, :, :)    !! (2, parts, cases) on the ends of parts that
+                                                    !! bend [N m]
+    real(wp), allocatable :: tension(:)             !! (tensions) [N] or [N m]
+    real(wp), allocatable :: carried(:, :, :)       !! (4, carried bodies, cases) as of
+                                                    !! `carried_loads` [N, N m]
+  end type part_loads_t
 
   !> Forces of the unit loads.
   type :: part_forces_t
@@ -24,5 +38,11 @@ module part_force_types
     real(wp), allocatable :: drive(:, :)      !! (drives, cases) of free ones; 0 of others [N m] or
                                               !! [N]
   end type part_forces_t
+
+  !> Loads, and the forces that balance them.
+  type :: loaded_parts_t
+    type(part_loads_t) :: loads
+    type(part_forces_t) :: forces
+  end type loaded_parts_t
 
 end module part_force_types

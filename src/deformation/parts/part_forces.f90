@@ -8,19 +8,20 @@
 module part_forces
   use axial_forces, only: distributed_unit_forces, lump_functions, most_lump_functions
   use border_loads, only: border_work, own_work
-  use border_rows, only: add_stretch, border_unknowns_t, damper_rows, spring_way
+  use border_rows, only: add_stretch, damper_rows, spring_way
+  use border_unknowns, only: border_unknowns_t
   use carried_bodies, only: add_carried_stiffness, carried_work
   use dense_factor, only: dense_factor_t, factorize, solve
   use drive_rates, only: find_drive_rates, own_drive_compliance, own_drive_rates, &
     own_turns_by_couples, slide_of, turn_of_end
-  use elastic_linkages, only: elastic_linkage_t, spring_t
+  use elastic_linkages, only: spring_t
+  use elastic_positions, only: elastic_position_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
   use linkages, only: linkage_t, normal_to
   use load_cases, only: case_count, constant_case, load_case_t, unit_loads_t
   use part_displacements, only: border_t, chords_of
-  use part_force_types, only: part_forces_t
-  use part_poses, only: part_loads_t
+  use part_force_types, only: loaded_parts_t, part_forces_t, part_loads_t
   use pin_displacements, only: chords_t
   use poses, only: pose_t
   use rigid_part_loads, only: turning_joints, turning_load
@@ -47,64 +48,61 @@ module part_forces
 contains
 
   !> The forces at a position.
-  pure subroutine find_part_forces(linkage, elastic, links, pose, loads, border, chords, forces)
+  pure subroutine find_part_forces(linkage, at, border, chords, loaded)
     type(linkage_t), intent(in) :: linkage          !! that moves: its drives
-    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
-    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
-    type(pose_t), intent(in) :: pose                !! of points and parts
-    type(part_loads_t), intent(in) :: loads         !! of this position
+    type(elastic_position_t), intent(in) :: at      !! of it, with parts that are placed
     type(border_t), intent(in) :: border            !! with violations of constraints
     type(chords_t), intent(in) :: chords            !! of the border unknowns
-    type(part_forces_t), intent(out) :: forces
+    type(loaded_parts_t), intent(inout) :: loaded   !! with loads; gets their forces
 
     type(chords_t) :: of_constraints
-    type(own_rates_t) :: on_own(size(links))
+    type(own_rates_t) :: on_own(size(at%model%links))
     real(wp), allocatable :: on_drives(:, :), drives_of_constraints(:, :), held(:), &
       compliance(:, :)
     integer, allocatable :: free(:)
     real(wp) :: work(size(chords%turn, 1)), weighted(size(border%rows%weight)), &
-      lambda(border%numbers%constraints), constant
+      lambda(at%numbers%constraints), constant
     integer :: i, n
 
     n = size(chords%turn, 1) - chords%free
-    call make_room(linkage, elastic, loads, border%numbers, n + chords%free, forces)
+    call make_room(linkage, at, loaded%loads, n + chords%free, loaded%forces)
     free = pack([(i, i=1, size(linkage%drives))], linkage%drives%is_free)
-    if (.not. any(loads%unit%occurs)) return
-    of_constraints = chords_of(elastic, links, pose, border%numbers, border%basis%violation, &
-      border%basis%weighted_violation)
-    call find_drive_rates(linkage, elastic, links, pose, chords, on_drives)
-    call find_drive_rates(linkage, elastic, links, pose, of_constraints, drives_of_constraints)
-    call find_own_drive_rates(linkage, elastic, links, on_own, compliance)
+    if (.not. any(loaded%loads%unit%occurs)) return
+    of_constraints = chords_of(at, border%basis%violation, border%basis%weighted_violation)
+    call find_drive_rates(linkage, at, chords, on_drives)
+    call find_drive_rates(linkage, at, of_constraints, drives_of_constraints)
+    call find_own_drive_rates(linkage, at, on_own, compliance)
     do i = 1, case_count
-      if (.not. loads%unit%occurs(i)) cycle
-      associate (case => loads%unit%of_case(i))
-        work = border_work(elastic%linkage, links, chords, pose, case) + &
-          matmul(loads%moment(:, i), chords%rotation) + work_on_ends(elastic, links, chords, &
-          loads%end_couple(:, :, i)) + carried_work(elastic, chords, loads%carried(:, :, i))
-        lambda = border_work(elastic%linkage, links, of_constraints, pose, case) + &
-          matmul(loads%moment(:, i), of_constraints%rotation) + work_on_ends(elastic, links, &
-          of_constraints, loads%end_couple(:, :, i)) + carried_work(elastic, of_constraints, &
-          loads%carried(:, :, i))
-        forces%work(:n, i) = work(:n)
+      if (.not. loaded%loads%unit%occurs(i)) cycle
+      associate (case => loaded%loads%unit%of_case(i))
+        work = border_work(at%elastic%linkage, at%model%links, chords, at%pose, case) + &
+          matmul(loaded%loads%moment(:, i), chords%rotation) + work_on_ends(at, chords, &
+          loaded%loads%end_couple(:, :, i)) + carried_work(at%elastic, chords, &
+          loaded%loads%carried(:, :, i))
+        lambda = border_work(at%elastic%linkage, at%model%links, of_constraints, at%pose, case) + &
+          matmul(loaded%loads%moment(:, i), of_constraints%rotation) + work_on_ends(at, &
+          of_constraints, loaded%loads%end_couple(:, :, i)) + carried_work(at%elastic, &
+          of_constraints, loaded%loads%carried(:, :, i))
+        loaded%forces%work(:n, i) = work(:n)
         if (size(on_drives, 1) > 0) then
           held = held_by_drives(on_drives(:, :n), on_drives(:, n + 1:), work, compliance, &
-            own_turns(linkage, elastic, links, pose, case, loads%end_couple(:, :, i), on_own))
-          forces%drive(free, i) = held
+            own_turns(linkage, at, case, loaded%loads%end_couple(:, :, i), on_own))
+          loaded%forces%drive(free, i) = held
           work = work + matmul(held, on_drives)
           lambda = lambda + matmul(held, drives_of_constraints)
         end if
-        forces%border(:n, i) = work(:n)
+        loaded%forces%border(:n, i) = work(:n)
         weighted = matmul(border%basis%weighted, work(:n))
         lambda = lambda - matmul(weighted, border%basis%weighted_violation)
-        call take_forces(elastic, links, pose, loads, border%numbers, weighted, lambda, i, forces)
+        call take_forces(at, weighted, lambda, i, loaded)
         constant = merge(1.0_wp, 0.0_wp, i == constant_case)
-        call add_guides(elastic, pose, chords, forces%guide(:, i), forces%second_order(:, :, i))
-        call add_lines(elastic, pose, border, elastic%springs, forces%spring(:, i), &
-          forces%second_order(:, :, i))
-        call add_lines(elastic, pose, border, elastic%tensions, constant*loads%tension, &
-          forces%second_order(:, :, i))
-        call add_carried_stiffness(elastic, chords, loads%carried(:, :, i), &
-          forces%second_order(:, :, i))
+        call add_guides(at, chords, loaded%forces%guide(:, i), loaded%forces%second_order(:, :, i))
+        call add_lines(at, border, at%elastic%springs, loaded%forces%spring(:, i), &
+          loaded%forces%second_order(:, :, i))
+        call add_lines(at, border, at%elastic%tensions, constant*loaded%loads%tension, &
+          loaded%forces%second_order(:, :, i))
+        call add_carried_stiffness(at%elastic, chords, loaded%loads%carried(:, :, i), &
+          loaded%forces%second_order(:, :, i))
       end associate
     end do
   end subroutine find_part_forces
@@ -134,60 +132,54 @@ contains
   end subroutine find_dyad_forces
 
   !> Forces of no loads.
-  pure subroutine make_room(linkage, elastic, loads, numbers, border, forces)
+  pure subroutine make_room(linkage, at, loads, border, forces)
     type(linkage_t), intent(in) :: linkage          !! that moves: its drives
-    type(elastic_linkage_t), intent(in) :: elastic  !! its parts
+    type(elastic_position_t), intent(in) :: at      !! of it
     type(part_loads_t), intent(in) :: loads         !! which of them occur
-    type(border_unknowns_t), intent(in) :: numbers  !! of rows and constraints
     integer, intent(in) :: border                   !! number of unknowns of a border
     type(part_forces_t), intent(out) :: forces
 
-    allocate (forces%axial(merge(3 + most_lump_functions(elastic%linkage), 0, &
-      any(loads%unit%occurs)), size(elastic%body), case_count), forces%second_order(border, &
-      border, case_count), forces%guide(size(elastic%contact), case_count), &
-      forces%spring(size(elastic%springs), case_count), forces%border(border, case_count), &
-      forces%work(border, case_count), &
-      forces%weighted(size(numbers%rows), case_count), forces%constraint(numbers%constraints, &
-      case_count), forces%drive(size(linkage%drives), case_count), source=0.0_wp)
+    allocate (forces%axial(merge(3 + most_lump_functions(at%elastic%linkage), 0, &
+      any(loads%unit%occurs)), size(at%elastic%body), case_count), forces%second_order(border, &
+      border, case_count), forces%guide(size(at%elastic%contact), case_count), &
+      forces%spring(size(at%elastic%springs), case_count), forces%border(border, case_count), &
+      forces%work(border, case_count), forces%weighted(size(at%numbers%rows), case_count), &
+      forces%constraint(at%numbers%constraints, case_count), forces%drive(size(linkage%drives), &
+      case_count), source=0.0_wp)
   end subroutine make_room
 
   !> The forces of a load case from those in rows and constraints.
-  pure subroutine take_forces(elastic, links, pose, loads, numbers, weighted, lambda, case, forces)
-    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
-    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
-    type(pose_t), intent(in) :: pose                !! of points and parts
-    type(part_loads_t), intent(in) :: loads         !! of this position
-    type(border_unknowns_t), intent(in) :: numbers  !! of rows and constraints
+  pure subroutine take_forces(at, weighted, lambda, case, loaded)
+    type(elastic_position_t), intent(in) :: at
     real(wp), intent(in) :: weighted(:)             !! (rows) [√J]
     real(wp), intent(in) :: lambda(:)               !! (constraints) [N]
     integer, intent(in) :: case                     !! number of the load case
-    type(part_forces_t), intent(inout) :: forces    !! with those of free drives
+    type(loaded_parts_t), intent(inout) :: loaded   !! with loads and forces of free drives
 
     real(wp) :: constant, mean
     integer :: k
 
-    forces%weighted(:, case) = weighted
-    forces%constraint(:, case) = lambda
+    loaded%forces%weighted(:, case) = weighted
+    loaded%forces%constraint(:, case) = lambda
     constant = merge(1.0_wp, 0.0_wp, case == constant_case)
-    forces%guide(:, case) = guide_forces(numbers, lambda)
-    forces%spring(:, case) = spring_forces(elastic, numbers, weighted) + constant*loads%pull
-    do k = 1, size(links)
-      if (elastic%linkage%bodies(k)%bends) then
-        mean = weighted(numbers%elongation(k))/links(k)%elongation
-        call add_distribution(elastic%linkage, k, pose, loads%unit%of_case(case), mean, &
-          forces%axial(:, k, case))
+    loaded%forces%guide(:, case) = guide_forces(at%numbers, lambda)
+    loaded%forces%spring(:, case) = spring_forces(at, weighted) + constant*loaded%loads%pull
+    do k = 1, size(at%model%links)
+      if (at%elastic%linkage%bodies(k)%bends) then
+        mean = weighted(at%numbers%elongation(k))/at%model%links(k)%elongation
+        call add_distribution(at%elastic%linkage, k, at%pose, loaded%loads%unit%of_case(case), &
+          mean, loaded%forces%axial(:, k, case))
       else
-        forces%axial(1, k, case) = turning_load(elastic, pose, loads%unit%of_case(case), numbers, &
-          forces, case, [elastic%springs, elastic%tensions], [forces%spring(:, case), &
-          constant*loads%tension], k)/elastic%linkage%bodies(k)%length
+        loaded%forces%axial(1, k, case) = turning_load(at, loaded, case, [at%elastic%springs, &
+          at%elastic%tensions], [loaded%forces%spring(:, case), constant*loaded%loads%tension], &
+          k)/at%elastic%linkage%bodies(k)%length
       end if
     end do
   end subroutine take_forces
 
   !> Work of couples on the ends of parts that bend.
-  pure function work_on_ends(elastic, links, chords, couple) result(work)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(link_modes_t), intent(in) :: links(:)
+  pure function work_on_ends(at, chords, couple) result(work)
+    type(elastic_position_t), intent(in) :: at
     type(chords_t), intent(in) :: chords
     real(wp), intent(in) :: couple(:, :) !! (2, parts) [N m]
     real(wp) :: work(size(chords%turn, 1))
@@ -195,13 +187,13 @@ contains
     integer :: e, k
 
     work = 0.0_wp
-    do k = 1, size(links)
+    do k = 1, size(at%model%links)
       do e = 1, 2
         if (.not. abs(couple(e, k)) > 0.0_wp) cycle
-        if (elastic%rotation(e, k) > 0) then
-          work = work + couple(e, k)*chords%rotation(elastic%rotation(e, k), :)
-        else if (elastic%rotation(e, k) == 0) then
-          work = work + couple(e, k)*turn_of_end(links(k), chords%turn(:, k), &
+        if (at%elastic%rotation(e, k) > 0) then
+          work = work + couple(e, k)*chords%rotation(at%elastic%rotation(e, k), :)
+        else if (at%elastic%rotation(e, k) == 0) then
+          work = work + couple(e, k)*turn_of_end(at%model%links(k), chords%turn(:, k), &
             chords%across(3:, :, k), e)
         end if
       end do
@@ -209,56 +201,52 @@ contains
   end function work_on_ends
 
   !> The forces of unit pulls at a position.
-  pure subroutine find_pull_forces(elastic, links, pose, border, chords, forces)
-    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
-    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
-    type(pose_t), intent(in) :: pose                !! of points and parts
+  pure subroutine find_pull_forces(at, border, chords, forces)
+    type(elastic_position_t), intent(in) :: at      !! with parts that are placed
     type(border_t), intent(in) :: border            !! with violations of constraints
     type(chords_t), intent(in) :: chords            !! of the border unknowns, no motion being free
     type(pull_forces_t), intent(out) :: forces
 
-    real(wp) :: rows(border%numbers%unknowns, size(elastic%dampers)), &
-      weighted(size(border%rows%weight)), lambda(border%numbers%constraints)
+    real(wp) :: rows(at%numbers%unknowns, size(at%elastic%dampers)), &
+      weighted(size(border%rows%weight)), lambda(at%numbers%constraints)
     type(part_forces_t) :: unit
     integer :: i, k
 
-    rows = damper_rows(elastic, border%numbers, pose)
+    rows = damper_rows(at)
     forces%row = matmul(transpose(border%basis%unknown), rows)
-    allocate (unit%drive(size(elastic%linkage%drives), 1), &
-      forces%axial(size(links), size(rows, 2)), forces%second_order(size(forces%row, 1), &
-      size(forces%row, 1), size(rows, 2)), source=0.0_wp)
+    allocate (unit%drive(size(at%elastic%linkage%drives), 1), forces%axial(size(at%model%links), &
+      size(rows, 2)), forces%second_order(size(forces%row, 1), size(forces%row, 1), size(rows, &
+      2)), source=0.0_wp)
     do i = 1, size(rows, 2)
       ! A pull does work where a damper gets shorter.
       weighted = -matmul(border%basis%weighted, forces%row(:, i))
       lambda = -matmul(rows(:, i), border%basis%violation) - matmul(weighted, &
         border%basis%weighted_violation)
       unit%constraint = reshape(lambda, [size(lambda), 1])
-      unit%guide = reshape(guide_forces(border%numbers, lambda), [size(elastic%contact), 1])
-      associate (springs => [elastic%springs, elastic%dampers(i)], &
-          pull => [spring_forces(elastic, border%numbers, weighted), 1.0_wp])
-        do k = 1, size(links)
-          if (elastic%linkage%bodies(k)%bends) then
-            forces%axial(k, i) = weighted(border%numbers%elongation(k))/links(k)%elongation
+      unit%guide = reshape(guide_forces(at%numbers, lambda), [size(at%elastic%contact), 1])
+      associate (springs => [at%elastic%springs, at%elastic%dampers(i)], pull => &
+          [spring_forces(at, weighted), 1.0_wp])
+        do k = 1, size(at%model%links)
+          if (at%elastic%linkage%bodies(k)%bends) then
+            forces%axial(k, i) = weighted(at%numbers%elongation(k))/at%model%links(k)%elongation
           else
-            forces%axial(k, i) = turning_joints(elastic, pose, border%numbers, unit, 1, springs, &
-              pull, k)/elastic%linkage%bodies(k)%length
+            forces%axial(k, i) = turning_joints(at, unit, 1, springs, pull, &
+              k)/at%elastic%linkage%bodies(k)%length
           end if
         end do
-        call add_guides(elastic, pose, chords, unit%guide(:, 1), &
-          forces%second_order(:, :, i))
-        call add_lines(elastic, pose, border, springs, pull, forces%second_order(:, :, i))
+        call add_guides(at, chords, unit%guide(:, 1), forces%second_order(:, :, i))
+        call add_lines(at, border, springs, pull, forces%second_order(:, :, i))
       end associate
     end do
   end subroutine find_pull_forces
 
   !> What springs that are strained by the deformation pull, or turn back [N] or [N m].
-  pure function spring_forces(elastic, numbers, weighted) result(force)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(border_unknowns_t), intent(in) :: numbers
+  pure function spring_forces(at, weighted) result(force)
+    type(elastic_position_t), intent(in) :: at
     real(wp), intent(in) :: weighted(:) !! (rows) [√J]
-    real(wp) :: force(size(elastic%springs))
+    real(wp) :: force(size(at%elastic%springs))
 
-    force = sqrt(elastic%springs%stiffness)*weighted(numbers%spring)
+    force = sqrt(at%elastic%springs%stiffness)*weighted(at%numbers%spring)
   end function spring_forces
 
   !> Forces of guides on their blocks, along the normals of their lines [N].
@@ -310,9 +298,8 @@ contains
   end subroutine add_distribution
 
   !> What blocks on guides that turn add to K_G: `R s θ`.
-  pure subroutine add_guides(elastic, pose, chords, guide, stiffness)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(pose_t), intent(in) :: pose
+  pure subroutine add_guides(at, chords, guide, stiffness)
+    type(elastic_position_t), intent(in) :: at
     type(chords_t), intent(in) :: chords
     real(wp), intent(in) :: guide(:)   !! (sliders) [N]
     real(wp), intent(inout) :: stiffness(:, :)
@@ -321,9 +308,9 @@ contains
     integer :: i, j
 
     do i = 1, size(guide)
-      if (elastic%guide_rotation(i) <= 0) cycle
-      turn = chords%rotation(elastic%guide_rotation(i), :)
-      along = slide_of(elastic, pose, chords, i)
+      if (at%elastic%guide_rotation(i) <= 0) cycle
+      turn = chords%rotation(at%elastic%guide_rotation(i), :)
+      along = slide_of(at%elastic, at%pose, chords, i)
       do j = 1, size(turn)
         stiffness(:, j) = stiffness(:, j) + guide(i)*(along*turn(j) + turn*along(j))
       end do
@@ -331,23 +318,22 @@ contains
   end subroutine add_guides
 
   !> What pulls along lines that turn with the linkage add: `½ (T/l) (n·ΔU)²`.
-  pure subroutine add_lines(elastic, pose, border, springs, pull, stiffness)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(pose_t), intent(in) :: pose
+  pure subroutine add_lines(at, border, springs, pull, stiffness)
+    type(elastic_position_t), intent(in) :: at
     type(border_t), intent(in) :: border
     type(spring_t), intent(in) :: springs(:)
     real(wp), intent(in) :: pull(:)    !! (springs) [N] or [N m]
     real(wp), intent(inout) :: stiffness(:, :)
 
-    real(wp) :: across(size(stiffness, 1)), way(2), row(border%numbers%unknowns)
+    real(wp) :: across(size(stiffness, 1)), way(2), row(at%numbers%unknowns)
     integer :: i, j
 
     do i = 1, size(pull)
       if (springs(i)%turns) cycle
-      way = spring_way(elastic, pose, springs(i))
+      way = spring_way(at%elastic, at%pose, springs(i))
       if (.not. norm2(way) > 0.0_wp) cycle
       row = 0.0_wp
-      call add_stretch(elastic, border%numbers, pose, springs(i), normal_to(way)/norm2(way), row)
+      call add_stretch(at, springs(i), normal_to(way)/norm2(way), row)
       across = matmul(row, border%basis%unknown)
       do j = 1, size(across)
         stiffness(:, j) = stiffness(:, j) + pull(i)/norm2(way)*across*across(j)
@@ -356,10 +342,9 @@ contains
   end subroutine add_lines
 
   !> What own modes of all parts do to the joints of free drives, and how they yield to these.
-  pure subroutine find_own_drive_rates(linkage, elastic, links, on_own, compliance)
+  pure subroutine find_own_drive_rates(linkage, at, on_own, compliance)
     type(linkage_t), intent(in) :: linkage
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(link_modes_t), intent(in) :: links(:)
+    type(elastic_position_t), intent(in) :: at
     type(own_rates_t), intent(out) :: on_own(:) !! (parts) empty of rigid ones
     real(wp), allocatable, intent(out) :: compliance(:, :)
 
@@ -368,19 +353,17 @@ contains
     d = count(linkage%drives%is_free)
     allocate (compliance(d, d), source=0.0_wp)
     if (d == 0) return
-    do k = 1, size(links)
-      if (.not. links(k)%bends) cycle
-      on_own(k)%rate = own_drive_rates(linkage, elastic, links, k)
-      compliance = compliance + own_drive_compliance(linkage, elastic, k)
+    do k = 1, size(at%model%links)
+      if (.not. at%model%links(k)%bends) cycle
+      on_own(k)%rate = own_drive_rates(linkage, at, k)
+      compliance = compliance + own_drive_compliance(linkage, at%elastic, k)
     end do
   end subroutine find_own_drive_rates
 
   !> Turns of the joints of free drives by own modes under the loads.
-  pure function own_turns(linkage, elastic, links, pose, case, couple, on_own) result(turns)
+  pure function own_turns(linkage, at, case, couple, on_own) result(turns)
     type(linkage_t), intent(in) :: linkage
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(link_modes_t), intent(in) :: links(:)
-    type(pose_t), intent(in) :: pose
+    type(elastic_position_t), intent(in) :: at
     type(load_case_t), intent(in) :: case
     real(wp), intent(in) :: couple(:, :) !! (2, parts) on the ends of those that bend [N m]
     type(own_rates_t), intent(in) :: on_own(:)
@@ -389,10 +372,10 @@ contains
     integer :: k
 
     turns = 0.0_wp
-    do k = 1, size(links)
+    do k = 1, size(at%model%links)
       if (.not. allocated(on_own(k)%rate)) cycle
-      turns = turns + matmul(on_own(k)%rate, own_work(elastic%linkage, links(k), k, pose, case)) + &
-        own_turns_by_couples(linkage, elastic, k, couple(:, k))
+      turns = turns + matmul(on_own(k)%rate, own_work(at%elastic%linkage, at%model%links(k), k, &
+        at%pose, case)) + own_turns_by_couples(linkage, at%elastic, k, couple(:, k))
     end do
   end function own_turns
 

@@ -1,6 +1,6 @@
 ! src/deformation/parts/ - links cut in straight parts at a position: places, loads and forces.
-! In: an `elastic_linkage_t`, own modes of its parts, pose and unit loads of the linkage. Out:
-! `chords_t`, `part_forces_t`. Begin with `place_parts_of` here; then `find_part_chords` in
+! In: an `elastic_position_t`, pose and unit loads of the linkage. Out: `chords_t`, and loads and
+! forces, a `loaded_parts_t`. Begin with `place_parts_of` here; then `find_part_chords` in
 ! `part_displacements.f90`, `find_part_loads` here, `find_part_forces` in `part_forces.f90`. Forces
 ! in joints that statics cannot tell apart: `take_part_reactions` in `part_reactions.f90`.
 ! Not here: the division into parts (`src/beam`), rows of the border (`src/deformation/pins`).
@@ -13,29 +13,18 @@ module part_poses
   use coordinates, only: evaluated_t
   use carried_bodies, only: add_short_pieces, carried_loads
   use elastic_linkages, only: add_couple, elastic_linkage_t, spring_t
+  use elastic_positions, only: elastic_position_t
   use errors, only: error_t
   use kinds, only: wp
   use linkages, only: cross, drive_of_length, linkage_t, normal_to, turned, turned_back
   use load_cases, only: case_count, constant_case, load_case_t, unit_loads_t
+  use part_force_types, only: part_loads_t
   use piece_places, only: place_pieces
   use poses, only: arm_to_place, pose_t
   implicit none (type, external)
   private
 
-  public :: part_loads_t, place_parts_of, find_part_loads, highest_force
-
-  !> Loads of the parts, and what acts on rotations and lines of springs.
-  type :: part_loads_t
-    type(unit_loads_t) :: unit                      !! on parts and points
-    real(wp), allocatable :: moment(:, :)           !! (rotations, cases) [N m]
-    real(wp), allocatable :: pull(:)                !! (springs) at the pose, before the linkage
-                                                    !! yields [N] or [N m]
-    real(wp), allocatable :: end_couple(:, :, :)    !! (2, parts, cases) on the ends of parts that
-                                                    !! bend [N m]
-    real(wp), allocatable :: tension(:)             !! (tensions) [N] or [N m]
-    real(wp), allocatable :: carried(:, :, :)       !! (4, carried bodies, cases) as of
-                                                    !! `carried_loads` [N, N m]
-  end type part_loads_t
+  public :: place_parts_of, find_part_loads, highest_force
 
 contains
 
@@ -76,33 +65,34 @@ contains
   end subroutine place_parts_of
 
   !> The loads of the parts.
-  pure subroutine find_part_loads(linkage, pose, loads, elastic, placed, of_parts)
+  pure subroutine find_part_loads(linkage, pose, loads, at, of_parts)
     type(linkage_t), intent(in) :: linkage           !! that moves
     type(pose_t), intent(in) :: pose                 !! of it
     type(unit_loads_t), intent(in) :: loads          !! of this pose
-    type(elastic_linkage_t), intent(in) :: elastic   !! at this position
-    type(pose_t), intent(in) :: placed               !! its points and parts
+    type(elastic_position_t), intent(in) :: at       !! of it
     type(part_loads_t), intent(out) :: of_parts
 
     type(evaluated_t), allocatable :: along(:)
     integer :: i
 
-    allocate (of_parts%moment(elastic%rotations, case_count), of_parts%end_couple(2, &
-      size(elastic%body), case_count), source=0.0_wp)
-    allocate (of_parts%pull(size(elastic%springs)), of_parts%tension(size(elastic%tensions)), &
-      source=0.0_wp)
+    allocate (of_parts%moment(at%elastic%rotations, case_count), of_parts%end_couple(2, &
+      size(at%elastic%body), case_count), source=0.0_wp)
+    allocate (of_parts%pull(size(at%elastic%springs)), &
+      of_parts%tension(size(at%elastic%tensions)), source=0.0_wp)
     of_parts%unit%occurs = loads%occurs
     do i = 1, case_count
       if (.not. loads%occurs(i)) cycle
       associate (of_links => loads%of_case(i), parts => of_parts%unit%of_case(i))
-        call take_field(linkage, pose, of_links%field, elastic, placed, parts%field)
-        allocate (parts%pin_force(2, size(elastic%is_fixed)), parts%couple(size(elastic%body)))
+        call take_field(linkage, pose, of_links%field, at%elastic, at%pose, parts%field)
+        allocate (parts%pin_force(2, size(at%elastic%is_fixed)), &
+          parts%couple(size(at%elastic%body)))
         parts%pin_force = 0.0_wp
         parts%pin_force(:, :size(of_links%pin_force, 2)) = of_links%pin_force
         parts%couple = 0.0_wp
-        if (allocated(of_links%place_force) .or. highest_force(elastic) > size(linkage%loads)) then
-          allocate (parts%place_force(2, highest_force(elastic)), source=0.0_wp)
-          allocate (parts%body_force(2, size(elastic%body)), source=0.0_wp)
+        if (allocated(of_links%place_force) .or. highest_force(at%elastic) > size(linkage%loads)) &
+          then
+          allocate (parts%place_force(2, highest_force(at%elastic)), source=0.0_wp)
+          allocate (parts%body_force(2, size(at%elastic%body)), source=0.0_wp)
         end if
         if (allocated(of_links%place_force)) parts%place_force(:, :size(linkage%loads)) = &
           of_links%place_force
@@ -111,23 +101,23 @@ contains
     if (loads%occurs(constant_case)) then
       call evaluate_loads(linkage, pose, along)
       associate (pull => standing_pulls(linkage, along))
-        of_parts%pull = pull(elastic%springs%load)
-        of_parts%tension = pull(elastic%tensions%load)
+        of_parts%pull = pull(at%elastic%springs%load)
+        of_parts%tension = pull(at%elastic%tensions%load)
       end associate
     end if
     do i = 1, case_count
-      if (loads%occurs(i)) call take_couples(linkage, pose, loads%of_case(i), elastic, placed, &
-        [elastic%springs, elastic%tensions], merge(1.0_wp, 0.0_wp, i == constant_case)* &
+      if (loads%occurs(i)) call take_couples(linkage, pose, loads%of_case(i), at%elastic, at%pose, &
+        [at%elastic%springs, at%elastic%tensions], merge(1.0_wp, 0.0_wp, i == constant_case)* &
         [of_parts%pull, of_parts%tension], of_parts%unit%of_case(i))
     end do
-    allocate (of_parts%carried(4, size(elastic%carried), case_count), source=0.0_wp)
+    allocate (of_parts%carried(4, size(at%elastic%carried), case_count), source=0.0_wp)
     do i = 1, case_count
       if (.not. loads%occurs(i)) cycle
-      of_parts%carried(:, :, i) = carried_loads(elastic, placed, of_parts%unit%of_case(i))
-      call add_short_pieces(elastic, of_parts%unit%of_case(i), of_parts%moment(:, i))
+      of_parts%carried(:, :, i) = carried_loads(at%elastic, at%pose, of_parts%unit%of_case(i))
+      call add_short_pieces(at%elastic, of_parts%unit%of_case(i), of_parts%moment(:, i))
     end do
-    call turn_ends(elastic%springs, of_parts%pull, of_parts%moment(:, constant_case))
-    call turn_ends(elastic%tensions, of_parts%tension, of_parts%moment(:, constant_case))
+    call turn_ends(at%elastic%springs, of_parts%pull, of_parts%moment(:, constant_case))
+    call turn_ends(at%elastic%tensions, of_parts%tension, of_parts%moment(:, constant_case))
   end subroutine find_part_loads
 
   !> The highest number of a force at a place of a part, or of a load of the linkage.

@@ -1,15 +1,14 @@
 !> What acts on a rigid link of a vibrating linkage: inertia, forces at its points and at places,
 !! blocks that slide along it with their drives, springs.
 module rigid_part_loads
-  use border_rows, only: border_unknowns_t, line_direction, spring_way
-  use elastic_linkages, only: elastic_linkage_t, spring_t
+  use border_rows, only: line_direction, spring_way
+  use elastic_linkages, only: spring_t
+  use elastic_positions, only: elastic_position_t
   use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
   use linkages, only: cross, normal_to, turned
   use load_cases, only: constant_case, load_case_t
-  use part_force_types, only: part_forces_t
-  use part_poses, only: part_loads_t
-  use poses, only: pose_t
+  use part_force_types, only: loaded_parts_t, part_forces_t
   implicit none (type, external)
   private
 
@@ -25,29 +24,26 @@ contains
 
   !> The resultant of all but the forces at its pins, and the couples of turns, of drives and of
   !! springs that turn.
-  pure function load_on_rigid(elastic, pose, loads, numbers, forces, case, part) result(load)
-    type(elastic_linkage_t), intent(in) :: elastic !! at this position
-    type(pose_t), intent(in) :: pose               !! of points and parts
-    type(part_loads_t), intent(in) :: loads        !! of this position
-    type(border_unknowns_t), intent(in) :: numbers !! of constraints
-    type(part_forces_t), intent(in) :: forces      !! of these loads
+  pure function load_on_rigid(at, loaded, case, part) result(load)
+    type(elastic_position_t), intent(in) :: at
+    type(loaded_parts_t), intent(in) :: loaded     !! its loads and forces
     integer, intent(in) :: case                    !! number of the load case
     integer, intent(in) :: part                    !! number of the rigid part
     type(load_t) :: load                           !! about its first pin [N, N m]
 
     type(placed_force_t), allocatable :: others(:)
-    real(wp) :: change(size(elastic%springs))
+    real(wp) :: change(size(at%elastic%springs))
     integer :: i
 
-    associate (of_case => loads%unit%of_case(case))
-      load = distributed_load(elastic%linkage%bodies(part), part, pose, of_case%field)
+    associate (of_case => loaded%loads%unit%of_case(case))
+      load = distributed_load(at%elastic%linkage%bodies(part), part, at%pose, of_case%field)
       load%moment = load%moment + of_case%couple(part)
       if (allocated(of_case%body_force)) load%force = load%force + of_case%body_force(:, part)
     end associate
     ! Pulls at the pose are among the forces at places; the linkage yields to the loads.
-    change = forces%spring(:, case)
-    if (case == constant_case) change = change - loads%pull
-    others = forces_of_others(elastic, pose, numbers, forces, case, elastic%springs, change, part)
+    change = loaded%forces%spring(:, case)
+    if (case == constant_case) change = change - loaded%loads%pull
+    others = forces_of_others(at, loaded%forces, case, at%elastic%springs, change, part)
     do i = 1, size(others)
       load%force = load%force + others(i)%force
       load%moment = load%moment + cross(others(i)%arm, others(i)%force)
@@ -56,13 +52,9 @@ contains
 
   !> `Σ F·r` of a rigid link, r from its first point: forces at its points, of blocks and springs
   !! on it, and its loads [N m].
-  pure function turning_load(elastic, pose, of_case, numbers, forces, case, springs, pull, part) &
-    result(total)
-    type(elastic_linkage_t), intent(in) :: elastic !! at this position
-    type(pose_t), intent(in) :: pose               !! of points and parts
-    type(load_case_t), intent(in) :: of_case       !! the loads of this case
-    type(border_unknowns_t), intent(in) :: numbers !! of constraints
-    type(part_forces_t), intent(in) :: forces      !! of these loads, but for their axial forces
+  pure function turning_load(at, loaded, case, springs, pull, part) result(total)
+    type(elastic_position_t), intent(in) :: at
+    type(loaded_parts_t), intent(in) :: loaded     !! its loads and forces, but axial ones
     integer, intent(in) :: case                    !! number of the load case
     type(spring_t), intent(in) :: springs(:)       !! all that pull
     real(wp), intent(in) :: pull(:)                !! (springs) [N] or [N m]
@@ -71,23 +63,20 @@ contains
 
     integer :: i
 
-    total = turning_joints(elastic, pose, numbers, forces, case, springs, pull, part) - &
-      inertia_turning(elastic, pose, of_case, part)
-    associate (body => elastic%linkage%bodies(part))
+    associate (body => at%elastic%linkage%bodies(part), of_case => loaded%loads%unit%of_case(case))
+      total = turning_joints(at, loaded%forces, case, springs, pull, part) - &
+        inertia_turning(at, of_case, part)
       if (.not. (allocated(body%forced) .and. allocated(of_case%place_force))) return
       do i = 1, size(body%forced)
         total = total + dot_product(of_case%place_force(:, body%forced(i)%load), &
-          turned(body%forced(i)%place, pose%direction(:, part)))
+          turned(body%forced(i)%place, at%pose%direction(:, part)))
       end do
     end associate
   end function turning_load
 
   !> The same of forces at its points, of blocks and springs on it.
-  pure function turning_joints(elastic, pose, numbers, forces, case, springs, pull, part) &
-    result(total)
-    type(elastic_linkage_t), intent(in) :: elastic !! at this position
-    type(pose_t), intent(in) :: pose               !! of points and parts
-    type(border_unknowns_t), intent(in) :: numbers !! of constraints
+  pure function turning_joints(at, forces, case, springs, pull, part) result(total)
+    type(elastic_position_t), intent(in) :: at
     type(part_forces_t), intent(in) :: forces      !! in constraints, of guides and drives
     integer, intent(in) :: case                    !! number of the load case
     type(spring_t), intent(in) :: springs(:)       !! all that pull
@@ -99,27 +88,24 @@ contains
     real(wp) :: arm(2)
     integer :: i, k, row
 
-    associate (body => elastic%linkage%bodies(part), e => pose%direction(:, part))
+    associate (body => at%elastic%linkage%bodies(part), e => at%pose%direction(:, part))
       total = 0.0_wp
       do k = 0, size(body%further)
         arm = e*body%length
         if (k > 0) arm = turned(body%further(k)%place, e)
-        row = numbers%body_constraint(part) + 2*k
+        row = at%numbers%body_constraint(part) + 2*k
         total = total + dot_product(forces%constraint(row + 1:row + 2, case), arm)
       end do
     end associate
-    others = forces_of_others(elastic, pose, numbers, forces, case, springs, pull, part)
+    others = forces_of_others(at, forces, case, springs, pull, part)
     do i = 1, size(others)
       total = total + dot_product(others(i)%force, others(i)%arm)
     end do
   end function turning_joints
 
   !> Forces on a rigid link of blocks that slide along it, and of springs at its places.
-  pure function forces_of_others(elastic, pose, numbers, forces, case, springs, tension, part) &
-    result(others)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(pose_t), intent(in) :: pose
-    type(border_unknowns_t), intent(in) :: numbers
+  pure function forces_of_others(at, forces, case, springs, tension, part) result(others)
+    type(elastic_position_t), intent(in) :: at
     type(part_forces_t), intent(in) :: forces
     integer, intent(in) :: case
     type(spring_t), intent(in) :: springs(:)
@@ -127,28 +113,28 @@ contains
     integer, intent(in) :: part
     type(placed_force_t), allocatable :: others(:)
 
-    type(placed_force_t) :: room(size(elastic%linkage%sliders) + 2*size(springs))
+    type(placed_force_t) :: room(size(at%elastic%linkage%sliders) + 2*size(springs))
     real(wp) :: way(2)
     integer :: i, k, n
 
     n = 0
-    do i = 1, size(elastic%linkage%sliders)
-      if (elastic%linkage%sliders(i)%body /= elastic%body(part)) cycle
+    do i = 1, size(at%elastic%linkage%sliders)
+      if (at%elastic%linkage%sliders(i)%body /= at%elastic%body(part)) cycle
       n = n + 1
-      room(n)%force = -force_on_block(elastic, pose, numbers, forces, case, i)
-      room(n)%arm = pose%pin(:, elastic%linkage%sliders(i)%pin) - pose%pin(:, &
-        elastic%linkage%bodies(part)%first_pin)
+      room(n)%force = -force_on_block(at, forces, case, i)
+      room(n)%arm = at%pose%pin(:, at%elastic%linkage%sliders(i)%pin) - at%pose%pin(:, &
+        at%elastic%linkage%bodies(part)%first_pin)
     end do
     do i = 1, size(springs)
       if (springs(i)%turns) cycle
-      way = spring_way(elastic, pose, springs(i))
+      way = spring_way(at%elastic, at%pose, springs(i))
       if (norm2(way) > 0.0_wp) way = way/norm2(way)
       do k = 1, 2
-        associate (at => elastic%linkage%loads(springs(i)%load)%along%at(k))
-          if (at%pin > 0 .or. at%body /= elastic%body(part)) cycle
+        associate (held => at%elastic%linkage%loads(springs(i)%load)%along%at(k))
+          if (held%pin > 0 .or. held%body /= at%elastic%body(part)) cycle
           n = n + 1
           room(n)%force = merge(tension(i), -tension(i), k == 1)*way
-          room(n)%arm = turned(at%place, pose%direction(:, part))
+          room(n)%arm = turned(held%place, at%pose%direction(:, part))
         end associate
       end do
     end do
@@ -156,10 +142,8 @@ contains
   end function forces_of_others
 
   !> Force of a guide on its block, with that of a drive that moves the block [N].
-  pure function force_on_block(elastic, pose, numbers, forces, case, slider) result(force)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(pose_t), intent(in) :: pose
-    type(border_unknowns_t), intent(in) :: numbers
+  pure function force_on_block(at, forces, case, slider) result(force)
+    type(elastic_position_t), intent(in) :: at
     type(part_forces_t), intent(in) :: forces
     integer, intent(in) :: case, slider
     real(wp) :: force(2)
@@ -167,20 +151,19 @@ contains
     real(wp) :: direction(2)
     integer :: i, row
 
-    direction = line_direction(elastic, pose, slider)
+    direction = line_direction(at%elastic, at%pose, slider)
     force = forces%guide(slider, case)*normal_to(direction)
-    do i = 1, size(elastic%linkage%drives)
-      if (elastic%linkage%drives(i)%slider /= slider) cycle
+    do i = 1, size(at%elastic%linkage%drives)
+      if (at%elastic%linkage%drives(i)%slider /= slider) cycle
       force = force + forces%drive(i, case)*direction
-      row = numbers%drive_constraint(i)
+      row = at%numbers%drive_constraint(i)
       if (row > 0) force = force - forces%constraint(row, case)*direction
     end do
   end function force_on_block
 
   !> `∫ a·r dm` of a rigid link. The rotary inertia of cross-sections does not count.
-  pure function inertia_turning(elastic, pose, case, part) result(total)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(pose_t), intent(in) :: pose
+  pure function inertia_turning(at, case, part) result(total)
+    type(elastic_position_t), intent(in) :: at
     type(load_case_t), intent(in) :: case
     integer, intent(in) :: part
     real(wp) :: total
@@ -188,8 +171,8 @@ contains
     real(wp) :: mass
     integer :: i
 
-    associate (body => elastic%linkage%bodies(part), e => pose%direction(:, part), &
-        first => case%field%at_first(:, part), slope => case%field%slope(:, part))
+    associate (body => at%elastic%linkage%bodies(part), e => at%pose%direction(:, part), first => &
+        case%field%at_first(:, part), slope => case%field%slope(:, part))
       mass = body%line_density*body%length
       total = mass*body%length*(0.5_wp*dot_product(e, first) + body%length/3.0_wp*dot_product(e, &
         slope))

@@ -7,196 +7,80 @@
 !! share of y. A spring has `√k` times its stretch or turn. Constraints: points of a rigid link,
 !! blocks on guides, a ram that is held.
 module border_rows
+  use border_unknowns, only: border_unknowns_t
   use elastic_linkages, only: elastic_linkage_t, fixed_rotation, spring_t
+  use elastic_positions, only: elastic_position_t
   use graded_rows, only: graded_rows_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
-  use linkages, only: body_t, drive_of_slider, normal_to, turned
+  use linkages, only: body_t, normal_to, turned
   use poses, only: pose_t
   implicit none (type, external)
   private
 
-  public :: border_unknowns_t, border_row_t, new_border_unknowns, find_border_rows, &
-    damper_rows, line_direction, spring_way, add_stretch, add_spring, add_line, add_rigid, part_rows
-  public :: row_elongation, row_curve, row_spring
-
-  !> What a row is.
-  integer, parameter :: row_elongation = 1, row_curve = 2, row_spring = 3
-
-  !> The meaning of a row of `graded_rows_t`.
-  type :: border_row_t
-    integer :: kind = 0   !! one of the row_… constants
-    integer :: number = 0 !! of the part or spring
-    integer :: curve = 0  !! number of the curve of a part
-  end type border_row_t
-
-  !> Numbers of unknowns, rows and constraints of a linkage, the same at every position.
-  type :: border_unknowns_t
-    integer :: unknowns = 0
-    integer, allocatable :: point(:)         !! (points) number of the first of two; 0: fixed
-    integer, allocatable :: rotation(:)      !! (rotations)
-    type(border_row_t), allocatable :: rows(:)
-    integer, allocatable :: elongation(:)    !! (parts) number of the row; 0: rigid
-    integer, allocatable :: curve(:, :)      !! (2, parts) numbers of the rows; 0: none
-    integer, allocatable :: spring(:)        !! (springs) number of the row
-    integer :: constraints = 0
-    integer, allocatable :: body_constraint(:) !! (parts) number of the one before the first of a
-                                               !! rigid part
-    integer, allocatable :: line_constraint(:) !! (sliders) across the line; 0: none
-    integer, allocatable :: drive_constraint(:) !! (drives) along the line of a moving guide, or 0
-    real(wp) :: size_of = 1.0_wp             !! by which rotations are multiplied [m]
-  end type border_unknowns_t
+  public :: find_border_rows, damper_rows, line_direction, spring_way, add_stretch, add_spring, &
+    add_line, add_rigid, part_rows
 
 contains
 
-  !> Numbers everything.
-  pure function new_border_unknowns(elastic, links) result(numbers)
-    type(elastic_linkage_t), intent(in) :: elastic !! parts, points, rotations
-    type(link_modes_t), intent(in) :: links(:)     !! (parts)
-    type(border_unknowns_t) :: numbers
-
-    integer :: i, k, n
-
-    allocate (numbers%point(size(elastic%is_fixed)), numbers%rotation(elastic%rotations), &
-      numbers%elongation(size(links)), numbers%curve(2, size(links)), &
-      numbers%spring(size(elastic%springs)), numbers%body_constraint(size(links)), &
-      numbers%line_constraint(size(elastic%linkage%sliders)), &
-      numbers%drive_constraint(size(elastic%linkage%drives)))
-    numbers%point = 0
-    do i = 1, size(numbers%point)
-      if (elastic%is_fixed(i)) cycle
-      numbers%point(i) = numbers%unknowns + 1
-      numbers%unknowns = numbers%unknowns + 2
-    end do
-    numbers%rotation = [(numbers%unknowns + i, i=1, elastic%rotations)]
-    numbers%unknowns = numbers%unknowns + elastic%rotations
-    numbers%elongation = 0
-    numbers%curve = 0
-    n = count(elastic%linkage%bodies%bends) + sum(links%curves) + size(elastic%springs)
-    allocate (numbers%rows(n))
-    n = 0
-    do k = 1, size(links)
-      if (.not. elastic%linkage%bodies(k)%bends) cycle
-      n = n + 1
-      numbers%elongation(k) = n
-      numbers%rows(n) = border_row_t(row_elongation, k, 0)
-      do i = 1, links(k)%curves
-        n = n + 1
-        numbers%curve(i, k) = n
-        numbers%rows(n) = border_row_t(row_curve, k, i)
-      end do
-    end do
-    ! Closed forms begin with the rotation of the clamped end.
-    if (elastic%in_closed_form .and. links(1)%curves == 1) then
-      numbers%elongation(1) = 2
-      numbers%curve(1, 1) = 1
-      numbers%rows(:2) = numbers%rows(2:1:-1)
-    end if
-    do i = 1, size(elastic%springs)
-      n = n + 1
-      numbers%spring(i) = n
-      numbers%rows(n) = border_row_t(row_spring, i, 0)
-    end do
-    call number_constraints(elastic, numbers)
-    numbers%size_of = maxval(elastic%linkage%bodies%length)
-  end function new_border_unknowns
-
-  pure subroutine number_constraints(elastic, numbers)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(border_unknowns_t), intent(inout) :: numbers
-
-    integer :: i, n
-
-    n = 0
-    numbers%body_constraint = 0
-    do i = 1, size(numbers%body_constraint)
-      associate (part => elastic%linkage%bodies(i))
-        numbers%body_constraint(i) = n
-        if (.not. part%bends) n = n + 2*(1 + size(part%further))
-      end associate
-    end do
-    numbers%line_constraint = 0
-    do i = 1, size(numbers%line_constraint)
-      associate (line => elastic%linkage%sliders(i))
-        if (elastic%is_fixed(line%pin) .and. line%body == 0) cycle
-        n = n + 1
-        numbers%line_constraint(i) = n
-      end associate
-    end do
-    numbers%drive_constraint = 0
-    do i = 1, size(numbers%drive_constraint)
-      associate (drive => elastic%linkage%drives(i))
-        if (drive%kind /= drive_of_slider .or. drive%is_free) cycle
-        if (elastic%linkage%sliders(drive%slider)%body == 0) cycle
-        n = n + 1
-        numbers%drive_constraint(i) = n
-      end associate
-    end do
-    numbers%constraints = n
-  end subroutine number_constraints
-
   !> The rows at a position.
-  pure subroutine find_border_rows(elastic, links, numbers, pose, rows)
-    type(elastic_linkage_t), intent(in) :: elastic   !! parts of this position
-    type(link_modes_t), intent(in) :: links(:)       !! (parts)
-    type(border_unknowns_t), intent(in) :: numbers   !! of these
-    type(pose_t), intent(in) :: pose                 !! of points and parts
+  pure subroutine find_border_rows(at, rows)
+    type(elastic_position_t), intent(in) :: at
     type(graded_rows_t), intent(inout) :: rows       !! storage is kept if it has the right size
 
     real(wp) :: normal(2)
     integer :: i, k
 
     if (allocated(rows%row)) then
-      if (any(shape(rows%row) /= [numbers%unknowns, size(numbers%rows)])) deallocate (rows%row, &
-        rows%constraint, rows%weight)
+      if (any(shape(rows%row) /= [at%numbers%unknowns, size(at%numbers%rows)])) &
+        deallocate (rows%row, rows%constraint, rows%weight)
     end if
-    if (.not. allocated(rows%row)) allocate (rows%row(numbers%unknowns, size(numbers%rows)), &
-      rows%constraint(numbers%unknowns, numbers%constraints), rows%weight(size(numbers%rows)))
+    if (.not. allocated(rows%row)) allocate (rows%row(at%numbers%unknowns, size(at%numbers%rows)), &
+      rows%constraint(at%numbers%unknowns, at%numbers%constraints), &
+      rows%weight(size(at%numbers%rows)))
     rows%row = 0.0_wp
     rows%constraint = 0.0_wp
-    do k = 1, size(links)
-      associate (part => elastic%linkage%bodies(k), axis => pose%direction(:, k))
+    do k = 1, size(at%model%links)
+      associate (part => at%elastic%linkage%bodies(k), axis => at%pose%direction(:, k))
         if (.not. part%bends) then
-          i = numbers%body_constraint(k)
-          call add_rigid(elastic, numbers, pose, k, rows%constraint(:, i + 1:i + 2*(1 + &
-            size(part%further))))
+          i = at%numbers%body_constraint(k)
+          call add_rigid(at, k, rows%constraint(:, i + 1:i + 2*(1 + size(part%further))))
           cycle
         end if
-        i = numbers%elongation(k)
-        call add_chord(numbers, part, axis, rows%row(:, i))
-        rows%weight(i) = 1.0_wp/links(k)%elongation
+        i = at%numbers%elongation(k)
+        call add_chord(at%numbers, part, axis, rows%row(:, i))
+        rows%weight(i) = 1.0_wp/at%model%links(k)%elongation
         normal = normal_to(axis)/part%length
-        do i = 1, links(k)%curves
-          associate (row => rows%row(:, numbers%curve(i, k)))
-            if (links(k)%curves == 2) then
-              call add_rotation(numbers, elastic%rotation(1, k), 1.0_wp, row)
-              call add_rotation(numbers, elastic%rotation(2, k), merge(1.0_wp, -1.0_wp, i == 1), &
-                row)
-              if (i == 1) call add_chord(numbers, part, -2.0_wp*normal, row)
+        do i = 1, at%model%links(k)%curves
+          associate (row => rows%row(:, at%numbers%curve(i, k)))
+            if (at%model%links(k)%curves == 2) then
+              call add_rotation(at%numbers, at%elastic%rotation(1, k), 1.0_wp, row)
+              call add_rotation(at%numbers, at%elastic%rotation(2, k), merge(1.0_wp, -1.0_wp, &
+                i == 1), row)
+              if (i == 1) call add_chord(at%numbers, part, -2.0_wp*normal, row)
             else
-              call add_rotation(numbers, elastic%rotation(merge(1, 2, links(k)%held(1)), k), &
-                1.0_wp, row)
-              call add_chord(numbers, part, -normal, row)
+              call add_rotation(at%numbers, at%elastic%rotation(merge(1, 2, &
+                at%model%links(k)%held(1)), k), 1.0_wp, row)
+              call add_chord(at%numbers, part, -normal, row)
             end if
           end associate
-          rows%weight(numbers%curve(i, k)) = 1.0_wp/links(k)%curve_rotation(i)
+          rows%weight(at%numbers%curve(i, k)) = 1.0_wp/at%model%links(k)%curve_rotation(i)
         end do
       end associate
     end do
-    do i = 1, size(elastic%springs)
-      call add_spring(elastic, numbers, pose, elastic%springs(i), &
-        rows%row(:, numbers%spring(i)))
-      rows%weight(numbers%spring(i)) = sqrt(elastic%springs(i)%stiffness)
+    do i = 1, size(at%elastic%springs)
+      call add_spring(at, at%elastic%springs(i), rows%row(:, at%numbers%spring(i)))
+      rows%weight(at%numbers%spring(i)) = sqrt(at%elastic%springs(i)%stiffness)
     end do
-    do i = 1, size(numbers%line_constraint)
-      if (numbers%line_constraint(i) > 0) call add_line(elastic, numbers, pose, i, &
-        normal_to(line_direction(elastic, pose, i)), &
-        rows%constraint(:, numbers%line_constraint(i)))
+    do i = 1, size(at%numbers%line_constraint)
+      if (at%numbers%line_constraint(i) > 0) call add_line(at, i, &
+        normal_to(line_direction(at%elastic, at%pose, i)), rows%constraint(:, &
+        at%numbers%line_constraint(i)))
     end do
-    do i = 1, size(numbers%drive_constraint)
-      if (numbers%drive_constraint(i) > 0) call add_line(elastic, numbers, pose, &
-        elastic%linkage%drives(i)%slider, line_direction(elastic, pose, &
-        elastic%linkage%drives(i)%slider), rows%constraint(:, numbers%drive_constraint(i)))
+    do i = 1, size(at%numbers%drive_constraint)
+      if (at%numbers%drive_constraint(i) > 0) call add_line(at, &
+        at%elastic%linkage%drives(i)%slider, line_direction(at%elastic, at%pose, &
+        at%elastic%linkage%drives(i)%slider), rows%constraint(:, at%numbers%drive_constraint(i)))
     end do
   end subroutine find_border_rows
 
@@ -266,29 +150,27 @@ contains
   end subroutine add_rotation
 
   !> Adds `U_k − U_0 − θ J r_k = 0` for all pins of a rigid link beyond the first.
-  pure subroutine add_rigid(elastic, numbers, pose, part, constraint)
-    type(elastic_linkage_t), intent(in) :: elastic  !! its parts
-    type(border_unknowns_t), intent(in) :: numbers  !! of the unknowns
-    type(pose_t), intent(in) :: pose                !! of points and parts
+  pure subroutine add_rigid(at, part, constraint)
+    type(elastic_position_t), intent(in) :: at
     integer, intent(in) :: part                     !! number of the link
     real(wp), intent(inout) :: constraint(:, :)     !! (unknowns, two of each pin)
 
     real(wp) :: arm(2), unit(2)
     integer :: i, k, pin, row
 
-    associate (body => elastic%linkage%bodies(part))
+    associate (body => at%elastic%linkage%bodies(part))
       do k = 0, size(body%further)
         pin = body%last_pin
         if (k > 0) pin = body%further(k)%pin
-        arm = pose%direction(:, part)*body%length
-        if (k > 0) arm = turned(body%further(k)%place, pose%direction(:, part))
+        arm = at%pose%direction(:, part)*body%length
+        if (k > 0) arm = turned(body%further(k)%place, at%pose%direction(:, part))
         do i = 1, 2
           row = 2*k + i
           unit = 0.0_wp
           unit(i) = 1.0_wp
-          call add_point(numbers, pin, unit, constraint(:, row))
-          call add_point(numbers, body%first_pin, -unit, constraint(:, row))
-          call add_rotation(numbers, elastic%rotation(1, part), -dot_product(unit, &
+          call add_point(at%numbers, pin, unit, constraint(:, row))
+          call add_point(at%numbers, body%first_pin, -unit, constraint(:, row))
+          call add_rotation(at%numbers, at%elastic%rotation(1, part), -dot_product(unit, &
             normal_to(arm)), constraint(:, row))
         end do
       end do
@@ -296,64 +178,58 @@ contains
   end subroutine add_rigid
 
   !> Adds `a·(U_P − U_Q)` of a block at P on the point Q of its guide.
-  pure subroutine add_line(elastic, numbers, pose, slider, a, row)
-    type(elastic_linkage_t), intent(in) :: elastic  !! its parts
-    type(border_unknowns_t), intent(in) :: numbers  !! of the unknowns
-    type(pose_t), intent(in) :: pose                !! of points and parts
+  pure subroutine add_line(at, slider, a, row)
+    type(elastic_position_t), intent(in) :: at
     integer, intent(in) :: slider                   !! number
     real(wp), intent(in) :: a(2)                    !! a direction
     real(wp), intent(inout) :: row(:)               !! (unknowns)
 
     integer :: part
 
-    associate (line => elastic%linkage%sliders(slider))
-      call add_point(numbers, line%pin, a, row)
-      if (elastic%contact(slider) > 0) then
-        call add_point(numbers, elastic%contact(slider), -a, row)
+    associate (line => at%elastic%linkage%sliders(slider))
+      call add_point(at%numbers, line%pin, a, row)
+      if (at%elastic%contact(slider) > 0) then
+        call add_point(at%numbers, at%elastic%contact(slider), -a, row)
       else if (line%body > 0) then
-        part = findloc(elastic%body, line%body, dim=1)
-        associate (first => elastic%linkage%bodies(part)%first_pin)
-          call add_point(numbers, first, -a, row)
-          call add_rotation(numbers, elastic%rotation(1, part), -dot_product(a, &
-            normal_to(pose%pin(:, line%pin) - pose%pin(:, first))), row)
+        part = findloc(at%elastic%body, line%body, dim=1)
+        associate (first => at%elastic%linkage%bodies(part)%first_pin)
+          call add_point(at%numbers, first, -a, row)
+          call add_rotation(at%numbers, at%elastic%rotation(1, part), -dot_product(a, &
+            normal_to(at%pose%pin(:, line%pin) - at%pose%pin(:, first))), row)
         end associate
       end if
     end associate
   end subroutine add_line
 
   !> What the dampers feel: stretch or turn.
-  pure function damper_rows(elastic, numbers, pose) result(rows)
-    type(elastic_linkage_t), intent(in) :: elastic !! its dampers
-    type(border_unknowns_t), intent(in) :: numbers !! of the unknowns
-    type(pose_t), intent(in) :: pose               !! of points and parts
-    real(wp) :: rows(numbers%unknowns, size(elastic%dampers)) !! [-] or [1/m]
+  pure function damper_rows(at) result(rows)
+    type(elastic_position_t), intent(in) :: at !! with dampers
+    real(wp) :: rows(at%numbers%unknowns, size(at%elastic%dampers)) !! [-] or [1/m]
 
     integer :: i
 
     rows = 0.0_wp
-    do i = 1, size(elastic%dampers)
-      call add_spring(elastic, numbers, pose, elastic%dampers(i), rows(:, i))
+    do i = 1, size(at%elastic%dampers)
+      call add_spring(at, at%elastic%dampers(i), rows(:, i))
     end do
   end function damper_rows
 
   !> Adds the stretch or turn of a spring.
-  pure subroutine add_spring(elastic, numbers, pose, spring, row)
-    type(elastic_linkage_t), intent(in) :: elastic  !! its parts
-    type(border_unknowns_t), intent(in) :: numbers  !! of the unknowns
-    type(pose_t), intent(in) :: pose                !! of points and parts
+  pure subroutine add_spring(at, spring, row)
+    type(elastic_position_t), intent(in) :: at
     type(spring_t), intent(in) :: spring            !! or a damper
     real(wp), intent(inout) :: row(:)               !! (unknowns)
 
     real(wp) :: way(2)
 
     if (spring%turns) then
-      call add_rotation(numbers, spring%rotation(2), 1.0_wp, row)
-      call add_rotation(numbers, spring%rotation(1), -1.0_wp, row)
+      call add_rotation(at%numbers, spring%rotation(2), 1.0_wp, row)
+      call add_rotation(at%numbers, spring%rotation(1), -1.0_wp, row)
       return
     end if
-    way = spring_way(elastic, pose, spring)
+    way = spring_way(at%elastic, at%pose, spring)
     if (norm2(way) > 0.0_wp) way = way/norm2(way)
-    call add_stretch(elastic, numbers, pose, spring, way, row)
+    call add_stretch(at, spring, way, row)
   end subroutine add_spring
 
   !> The way between the ends of a spring along a line [m].
@@ -388,10 +264,8 @@ contains
   end function end_place
 
   !> Adds `a·(U_2 − U_1)` of the ends of a spring.
-  pure subroutine add_stretch(elastic, numbers, pose, spring, a, row)
-    type(elastic_linkage_t), intent(in) :: elastic  !! its parts
-    type(border_unknowns_t), intent(in) :: numbers  !! of the unknowns
-    type(pose_t), intent(in) :: pose                !! of points and parts
+  pure subroutine add_stretch(at, spring, a, row)
+    type(elastic_position_t), intent(in) :: at
     type(spring_t), intent(in) :: spring            !! or a damper
     real(wp), intent(in) :: a(2)                    !! a direction
     real(wp), intent(inout) :: row(:)               !! (unknowns)
@@ -401,15 +275,15 @@ contains
 
     do k = 1, 2
       sense = merge(-1.0_wp, 1.0_wp, k == 1)
-      associate (at => elastic%linkage%loads(spring%load)%along%at(k))
-        if (at%pin > 0) then
-          call add_point(numbers, at%pin, sense*a, row)
+      associate (held => at%elastic%linkage%loads(spring%load)%along%at(k))
+        if (held%pin > 0) then
+          call add_point(at%numbers, held%pin, sense*a, row)
         else
           ! A place that is no pin is one of a rigid link.
-          part = findloc(elastic%body, at%body, dim=1)
-          call add_point(numbers, elastic%linkage%bodies(part)%first_pin, sense*a, row)
-          call add_rotation(numbers, elastic%rotation(1, part), sense*dot_product(a, &
-            normal_to(turned(at%place, pose%direction(:, part)))), row)
+          part = findloc(at%elastic%body, held%body, dim=1)
+          call add_point(at%numbers, at%elastic%linkage%bodies(part)%first_pin, sense*a, row)
+          call add_rotation(at%numbers, at%elastic%rotation(1, part), sense*dot_product(a, &
+            normal_to(turned(held%place, at%pose%direction(:, part)))), row)
         end if
       end associate
     end do

@@ -3,6 +3,7 @@ module drive_rates
   use border_rows, only: line_direction
   use deformation_places, only: rotation_row
   use elastic_linkages, only: elastic_linkage_t
+  use elastic_positions, only: elastic_position_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
   use linkages, only: drive_of_angle, drive_of_slider, linkage_t, normal_to
@@ -18,11 +19,9 @@ module drive_rates
 contains
 
   !> Motion of every free drive in some displacements.
-  pure subroutine find_drive_rates(linkage, elastic, links, pose, chords, rate)
+  pure subroutine find_drive_rates(linkage, at, chords, rate)
     type(linkage_t), intent(in) :: linkage
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(link_modes_t), intent(in) :: links(:)
-    type(pose_t), intent(in) :: pose
+    type(elastic_position_t), intent(in) :: at
     type(chords_t), intent(in) :: chords
     real(wp), allocatable, intent(out) :: rate(:, :) !! (free drives, displacements)
 
@@ -35,32 +34,32 @@ contains
       associate (drive => linkage%drives(free(i)))
         rate(i, :) = 0.0_wp
         if (drive%kind == drive_of_angle) then
-          rate(i, :) = turn_at_joint(linkage, elastic, links, chords, drive%body, drive%against)
-          if (drive%against > 0) rate(i, :) = rate(i, :) - turn_at_joint(linkage, elastic, links, &
-            chords, drive%against, drive%body)
+          rate(i, :) = turn_at_joint(linkage, at, chords, drive%body, drive%against)
+          if (drive%against > 0) rate(i, :) = rate(i, :) - turn_at_joint(linkage, at, chords, &
+            drive%against, drive%body)
         else if (drive%kind == drive_of_slider) then
-          rate(i, :) = slide_of(elastic, pose, chords, drive%slider)
+          rate(i, :) = slide_of(at%elastic, at%pose, chords, drive%slider)
         end if
       end associate
     end do
   end subroutine find_drive_rates
 
   !> Rotation of the end of a link where it is joined to another, or to the ground.
-  pure function turn_at_joint(linkage, elastic, links, chords, body, other) result(turn)
+  pure function turn_at_joint(linkage, at, chords, body, other) result(turn)
     type(linkage_t), intent(in) :: linkage
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(link_modes_t), intent(in) :: links(:)
+    type(elastic_position_t), intent(in) :: at
     type(chords_t), intent(in) :: chords
     integer, intent(in) :: body, other
     real(wp) :: turn(size(chords%turn, 1))
 
     integer :: part, end
 
-    call find_joint_end(linkage, elastic, body, other, part, end)
-    if (elastic%rotation(end, part) > 0) then
-      turn = chords%rotation(elastic%rotation(end, part), :)
-    else if (elastic%linkage%bodies(part)%bends) then
-      turn = turn_of_end(links(part), chords%turn(:, part), chords%across(3:, :, part), end)
+    call find_joint_end(linkage, at%elastic, body, other, part, end)
+    if (at%elastic%rotation(end, part) > 0) then
+      turn = chords%rotation(at%elastic%rotation(end, part), :)
+    else if (at%elastic%linkage%bodies(part)%bends) then
+      turn = turn_of_end(at%model%links(part), chords%turn(:, part), chords%across(3:, :, part), &
+        end)
     else
       turn = chords%turn(:, part)
     end if
@@ -135,21 +134,21 @@ contains
   end function own_slopes
 
   !> Rotations at the joints of free drives that are due to own modes of one part.
-  pure function own_drive_rates(linkage, elastic, links, part) result(rate)
+  pure function own_drive_rates(linkage, at, part) result(rate)
     type(linkage_t), intent(in) :: linkage           !! that moves: its drives
-    type(elastic_linkage_t), intent(in) :: elastic   !! of it
-    type(link_modes_t), intent(in) :: links(:)       !! (parts)
+    type(elastic_position_t), intent(in) :: at       !! of it
     integer, intent(in) :: part                      !! that bends
-    real(wp) :: rate(count(linkage%drives%is_free), links(part)%modes) !! (free drives, own modes)
+    real(wp) :: rate(count(linkage%drives%is_free), at%model%links(part)%modes) !! (free drives,
+                                                     !! own modes)
 
-    real(wp) :: sense(size(rate, 1), 2), slopes(links(part)%modes)
+    real(wp) :: sense(size(rate, 1), 2), slopes(at%model%links(part)%modes)
     integer :: i, end
 
-    sense = hinged_ends(linkage, elastic, part)
+    sense = hinged_ends(linkage, at%elastic, part)
     rate = 0.0_wp
     do end = 1, 2
       if (.not. any(abs(sense(:, end)) > 0.0_wp)) cycle
-      slopes = own_slopes(links(part), end)
+      slopes = own_slopes(at%model%links(part), end)
       do i = 1, size(rate, 1)
         rate(i, :) = rate(i, :) + sense(i, end)*slopes
       end do

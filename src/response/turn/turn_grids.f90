@@ -13,7 +13,7 @@
 module turn_grids
   use band_matrix, only: full_band
   use body_lumps, only: lump_offsets
-  use border_rows, only: row_spring
+  use border_unknowns, only: border_unknowns_t, row_spring
   use carried_bodies, only: add_carried_mass, carried_motion
   use chebyshev_series, only: chebyshev_slopes
   use constants, only: pi, two_pi
@@ -32,7 +32,7 @@ module turn_grids
   use load_cases, only: case_count, find_unit_loads, load_case_t
   use moving_integrals, only: chord_functions, moving_integrals_t, new_moving_integrals
   use moving_pieces, only: amplitude_scales, moving_piece_t, new_moving_piece
-  use part_displacements, only: border_t, find_part_chords
+  use part_displacements, only: find_part_chords
   use part_forces, only: find_pull_forces, pull_forces_t
   use pin_displacements, only: body_displacement, chords_t
   use position_assembly, only: assembled_t, load_parts, new_assembled, place_parts
@@ -250,20 +250,20 @@ contains
         grid%place(samples, 2, pins), grid%direction(samples, 2, n), grid%rate(samples, n), &
         grid%rate_slope(samples, n), grid%torque(samples, case_count))
     end associate
-    call number_deformations(here%border, grid)
-    call start_pieces(structure, here%border, grid)
+    call number_deformations(here%numbers, grid)
+    call start_pieces(structure, here%numbers, grid)
     call start_carried(structure%elastic, grid)
     if (.not. allocated(grid%weighted)) return
-    n = size(here%border%numbers%rows)
+    n = size(here%numbers%rows)
     if (n == grid%border .and. all(grid%deformed(:n) > 0)) return
     call choose_pivots(structure, grid%range, model, here, error)
     if (.not. allocated(error)) call find_rotation(structure, here, grid, error)
   end subroutine start_grid
 
   !> Room for what moves with the material of pieces.
-  pure subroutine start_pieces(structure, border, grid)
+  pure subroutine start_pieces(structure, numbers, grid)
     class(structure_t), intent(in) :: structure
-    type(border_t), intent(in) :: border
+    type(border_unknowns_t), intent(in) :: numbers
     type(turn_grid_t), intent(inout) :: grid
 
     integer :: b, n
@@ -279,7 +279,7 @@ contains
     end associate
     allocate (grid%ratio(grid%samples, n), source=1.0_wp)
     allocate (grid%drift(grid%samples, 2, n), grid%drift_slope(grid%samples, 2, n), source=0.0_wp)
-    grid%curve = border%numbers%curve
+    grid%curve = numbers%curve
   end subroutine start_pieces
 
   !> Room for what cuts carry.
@@ -339,8 +339,8 @@ contains
     do i = 1, pivot_positions
       call find_pose(structure%linkage, position(i), pose, error)
       if (.not. allocated(error)) call place_parts(structure, grid%model, pose, here, error)
-      if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
-        here%model%links, here%pose, grid%border, 0, .false., here%border, chords, error)
+      if (.not. allocated(error)) call find_part_chords(structure%linkage, &
+        here%elastic_position_t, .false., here%border, chords, error)
       if (allocated(error)) return
       do b = 1, size(grid%integrals)
         associate (chord => grid%integrals(b)%chord, of_body => grid%integrals(b)%mass)
@@ -453,20 +453,20 @@ contains
       grid%pin(k, :, [n + b, n + size(here%elastic%carried) + b], :) = &
         carried_motion(here%elastic, here%pose, chords, b)
     end do
-    n = size(here%border%numbers%rows)
+    n = size(here%numbers%rows)
     if (allocated(grid%weighted)) grid%weighted(k, :n, :) = chords%weighted
     if (allocated(grid%pieces)) call take_lengths(here%elastic, k, grid, error)
     if (allocated(error)) return
-    call take_forces(here%part_forces%axial, k, grid)
+    call take_forces(here%loaded%forces%axial, k, grid)
     call find_unit_reactions(structure%linkage, spread(0, 1, size(structure%linkage%bodies)), &
       pose, coefficients, unit)
     do c = 1, case_count
       if (allocated(grid%second_order)) grid%second_order(k, :, :, c) = &
-        here%part_forces%second_order(:, :, c)
-      grid%load(k, :grid%border, c) = here%part_forces%work(:, c)
+        here%loaded%forces%second_order(:, :, c)
+      grid%load(k, :grid%border, c) = here%loaded%forces%work(:, c)
       do b = 1, size(grid%integrals)
         call add_own_loads(grid, b, k, inertia_work(here%elastic%linkage, grid, b, here%pose, &
-          here%part_loads%unit%of_case(c)), grid%load(k, :, c))
+          here%loaded%loads%unit%of_case(c)), grid%load(k, :, c))
       end do
       grid%torque(k, c) = unit%of_case(c)%joints%torque
     end do
@@ -521,7 +521,7 @@ contains
     type(pull_forces_t) :: forces
     integer :: i, n
 
-    call find_pull_forces(here%elastic, here%model%links, here%pose, here%border, chords, forces)
+    call find_pull_forces(here%elastic_position_t, here%border, chords, forces)
     n = size(grid%weighted, 2) - size(grid%dampers)
     do i = 1, size(grid%dampers)
       grid%weighted(k, n + i, :) = forces%row(:, i)
@@ -654,15 +654,15 @@ contains
 
   !> To which parts the deformations belong: where there are as many as unknowns, and no dampers,
   !! each is one.
-  pure subroutine number_deformations(border, grid)
-    type(border_t), intent(in) :: border
+  pure subroutine number_deformations(numbers, grid)
+    type(border_unknowns_t), intent(in) :: numbers
     type(turn_grid_t), intent(inout) :: grid
 
     integer :: n
 
-    n = size(border%numbers%rows)
-    grid%elongation = border%numbers%elongation
-    grid%deformed = [merge(0, border%numbers%rows%number, border%numbers%rows%kind == row_spring), &
+    n = size(numbers%rows)
+    grid%elongation = numbers%elongation
+    grid%deformed = [merge(0, numbers%rows%number, numbers%rows%kind == row_spring), &
       spread(0, 1, size(grid%dampers))]
     if (n == grid%border .and. all(grid%deformed > 0)) then
       grid%owner(:n) = grid%deformed
@@ -692,9 +692,8 @@ contains
     do i = 0, most_turns*pivot_positions - 1
       call find_pose(structure%linkage, position(modulo(i, pivot_positions)), pose, error)
       if (.not. allocated(error)) call place_parts(structure, model, pose, here, error)
-      if (.not. allocated(error)) call find_part_chords(structure%linkage, here%elastic, &
-        here%model%links, here%pose, model%layout%border, model%layout%free, .false., here%border, &
-        chords, error)
+      if (.not. allocated(error)) call find_part_chords(structure%linkage, &
+        here%elastic_position_t, .false., here%border, chords, error)
       if (allocated(error)) return
       kept = merge(1, kept + 1, here%border%is_new)
       if (kept > pivot_positions) return

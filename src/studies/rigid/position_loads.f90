@@ -1,7 +1,7 @@
 !> Forces in the joints at a position and at a speed: by statics, or divided by elasticity.
 module position_loads
   use actuated_forces, only: find_actuator_fault
-  use elastic_reactions, only: divide_by_elasticity, elastic_division_t, elastic_position_t, &
+  use elastic_reactions, only: divide_by_elasticity, elastic_division_t, divided_position_t, &
     find_divided, new_elastic_division
   use errors, only: error_of_numerics, error_t, outcome_t, set_error
   use kinds, only: wp
@@ -21,7 +21,7 @@ module position_loads
   !> Forces in the joints at a position.
   type :: position_loads_t
     type(unit_reactions_t) :: unit    !! of the unit loads
-    type(elastic_position_t) :: at    !! where elasticity divides forces
+    type(divided_position_t) :: at    !! where elasticity divides forces
     type(divided_t) :: divided        !! likewise, at the last speed
   end type position_loads_t
 

@@ -13,11 +13,11 @@ module frequency_loci
   use kinematic_coefficients, only: find_kinematic_coefficients
   use ledger, only: ledger_t
   use load_cases, only: case_count
+  use mixed_positions, only: find_mixed_prints
   use modal_assurance, only: likeness, mode_prints_t
   use mode_prints, only: prints_of
   use poses, only: pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
-  use position_modes, only: prints_of_position
   use position_results, only: frequency_of
   use positions, only: positions_t
   use sorting, only: ascending_order
@@ -274,7 +274,7 @@ contains
     found = .not. allocated(outcome(1)%error)
     if (.not. found) return
     if (allocated(here%mixed)) then
-      call prints_of_position(here, modes(1), request%modes, prints)
+      call find_mixed_prints(here%mixed, here%model%links, modes(1), request%modes, prints)
     else
       prints = prints_of(models%continuum, work%equations%chords, modes(1), request%modes)
     end if

@@ -1,8 +1,7 @@
 ! src/vibration/mixed/ - frequencies of linkages of many links: cost grows with their number.
 ! In: a linkage in parts, their own modes, a pose. Out: modes with errors, and in `chords_t` what
 ! each mode does to points and parts, so that all else takes them as it takes those of few links.
-! Begin with `new_mixed_form` here, `assemble_rest` in `mixed_positions.f90`, `modes_of_position`
-! in `position_modes.f90`.
+! Begin with `new_mixed_form` here, `assemble_rest` and `modes_on_border` in `mixed_positions.f90`.
 ! Not here: the factor of the matrices (`src/base/sparse`), their eigenvalues (`src/eigen`).
 
 !> The mixed form of the equations at a position: strains, displacements, and a multiplier for every
@@ -23,8 +22,9 @@
 !! are multipliers, and each frequency below a shift σ of `K − σM` adds one. Strains are kept: the
 !! stiffness matrix B W² Bᵀ would square the ratio of EA to EI, and lose as many digits.
 module mixed_form
-  use border_rows, only: border_unknowns_t, new_border_unknowns
+  use border_unknowns, only: border_unknowns_t
   use elastic_linkages, only: elastic_linkage_t, spring_t
+  use elastic_positions, only: elastic_position_t
   use element_matrices, only: elements_t, new_elements
   use elimination_plan, only: elimination_plan_t, new_elimination_plan
   use kinds, only: wp
@@ -66,19 +66,18 @@ module mixed_form
 contains
 
   !> Numbers everything.
-  pure function new_mixed_form(elastic, links) result(form)
-    type(elastic_linkage_t), intent(in) :: elastic !! parts, points, rotations
-    type(link_modes_t), intent(in) :: links(:)     !! (parts)
+  pure function new_mixed_form(at) result(form)
+    type(elastic_position_t), intent(in) :: at !! of the linkage
     type(mixed_form_t) :: form
 
     integer :: k, n
 
-    form%numbers = new_border_unknowns(elastic, links)
-    allocate (form%own(size(links)))
+    form%numbers = at%numbers
+    allocate (form%own(size(at%model%links)))
     n = 0
-    do k = 1, size(links)
+    do k = 1, size(at%model%links)
       form%own(k) = n
-      n = n + links(k)%modes + links(k)%axial_modes
+      n = n + at%model%links(k)%modes + at%model%links(k)%axial_modes
     end do
     form%rows = n
     form%displacements = n + size(form%numbers%rows)
@@ -86,19 +85,19 @@ contains
     form%conditions = size(form%numbers%rows) + form%numbers%constraints
     form%unknowns = form%multipliers + form%conditions
     form%unit = 0.0_wp
-    do k = 1, size(links)
-      if (links(k)%bends) form%unit = max(form%unit, links(k)%elongation, &
-        elastic%linkage%bodies(k)%length*maxval(links(k)%curve_rotation))
+    do k = 1, size(at%model%links)
+      if (at%model%links(k)%bends) form%unit = max(form%unit, at%model%links(k)%elongation, &
+        at%elastic%linkage%bodies(k)%length*maxval(at%model%links(k)%curve_rotation))
     end do
     if (.not. form%unit > 0.0_wp) form%unit = 1.0_wp
-    form%spring = size(links)
-    form%tension = form%spring + size(elastic%springs)
-    form%line = form%tension + size(elastic%tensions)
-    form%drive = form%line + size(elastic%linkage%sliders)
-    form%point = form%drive + size(elastic%linkage%drives)
-    form%carried = form%point + size(elastic%is_fixed)
-    form%cut = form%carried + size(elastic%carried)
-    call place_elements(elastic, links, form)
+    form%spring = size(at%model%links)
+    form%tension = form%spring + size(at%elastic%springs)
+    form%line = form%tension + size(at%elastic%tensions)
+    form%drive = form%line + size(at%elastic%linkage%sliders)
+    form%point = form%drive + size(at%elastic%linkage%drives)
+    form%carried = form%point + size(at%elastic%is_fixed)
+    form%cut = form%carried + size(at%elastic%carried)
+    call place_elements(at%elastic, at%model%links, form)
   end function new_mixed_form
 
   !> Sets the unknowns of elements at a position, and where they have changed the order in which

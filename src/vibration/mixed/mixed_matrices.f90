@@ -3,15 +3,14 @@ module mixed_matrices
   use border_loads, only: add_link_work
   use border_rows, only: add_line, add_rigid, add_spring, add_stretch, line_direction, spring_way
   use drive_rates, only: turn_of_end
-  use elastic_linkages, only: elastic_linkage_t, is_piece, spring_t
+  use elastic_linkages, only: is_piece, spring_t
+  use elastic_positions, only: elastic_position_t
   use kinds, only: wp
   use link_modes, only: link_modes_t
   use linkages, only: normal_to, turned
   use load_cases, only: constant_case
   use mixed_form, only: mixed_form_t
-  use part_force_types, only: part_forces_t
-  use part_poses, only: part_loads_t
-  use poses, only: pose_t
+  use part_force_types, only: loaded_parts_t, part_loads_t
   use reduced_assembly, only: add_link_mass, add_link_stiffness
   implicit none (type, external)
   private
@@ -35,72 +34,71 @@ module mixed_matrices
 contains
 
   !> What the unknowns of its element do to a part.
-  pure function place_locally(form, elastic, link, part, pose) result(local)
+  pure function place_locally(form, at, part) result(local)
     type(mixed_form_t), intent(in) :: form         !! of the linkage
-    type(elastic_linkage_t), intent(in) :: elastic !! at this position
-    type(link_modes_t), intent(in) :: link         !! of the part
+    type(elastic_position_t), intent(in) :: at
     integer, intent(in) :: part                    !! its number
-    type(pose_t), intent(in) :: pose               !! of points and parts
     type(local_t) :: local
 
     real(wp) :: axis(2), normal(2)
-    integer :: i, j, k, first, last, at
+    integer :: i, j, k, first, last, number
 
-    local%own = link%modes + link%axial_modes
-    local%curves = link%curves
-    axis = pose%direction(:, part)
-    normal = normal_to(axis)
-    do i = 1, link%curves
-      local%across(2 + i, i) = 1.0_wp
-    end do
-    first = form%elements%first(part) + local%own
-    if (link%bends) first = first + 1 + link%curves
-    last = form%elements%first(part + 1) - 1
-    j = local%curves
-    do i = first, last
-      at = form%elements%unknown(i) - form%displacements
-      if (at > form%numbers%unknowns) exit
-      j = j + 1
-      ! Of a rigid link only its first pin and its rotation count.
-      if (j > most) exit
-      do k = 1, 2
-        associate (point => merge(elastic%linkage%bodies(part)%first_pin, &
-            elastic%linkage%bodies(part)%last_pin, k == 1), rotation => elastic%rotation(k, part))
-          if (form%numbers%point(point) > 0) then
-            if (at == form%numbers%point(point)) then
-              local%along(k, j) = axis(1)*form%unit
-              local%across(k, j) = normal(1)*form%unit
-            else if (at == form%numbers%point(point) + 1) then
-              local%along(k, j) = axis(2)*form%unit
-              local%across(k, j) = normal(2)*form%unit
-            end if
-          end if
-          if (rotation > 0) then
-            if (at == form%numbers%rotation(rotation)) local%rotation(k, j) = &
-              form%unit/form%numbers%size_of
-          end if
-        end associate
+    associate (link => at%model%links(part))
+      local%own = link%modes + link%axial_modes
+      local%curves = link%curves
+      axis = at%pose%direction(:, part)
+      normal = normal_to(axis)
+      do i = 1, link%curves
+        local%across(2 + i, i) = 1.0_wp
       end do
-    end do
-    local%moving = min(j, most)
-    if (.not. link%bends) then
-      local%turn = local%rotation(1, :)
-    else if (is_piece(elastic, part)) then
-      ! From the rotations of held ends: the ends of a short piece move by the same amount.
-      local%turn = local%rotation(1, :) + local%rotation(2, :)
-      local%turn(1) = local%turn(1) - link%curve_rotation(1)
-      if (link%curves == 2) local%turn = 0.5_wp*local%turn
-    else
-      local%turn = (local%across(2, :) - local%across(1, :))/link%length
-    end if
+      first = form%elements%first(part) + local%own
+      if (link%bends) first = first + 1 + link%curves
+      last = form%elements%first(part + 1) - 1
+      j = local%curves
+      do i = first, last
+        number = form%elements%unknown(i) - form%displacements
+        if (number > form%numbers%unknowns) exit
+        j = j + 1
+        ! Of a rigid link only its first pin and its rotation count.
+        if (j > most) exit
+        do k = 1, 2
+          associate (point => merge(at%elastic%linkage%bodies(part)%first_pin, &
+              at%elastic%linkage%bodies(part)%last_pin, k == 1), &
+              rotation => at%elastic%rotation(k, part))
+            if (form%numbers%point(point) > 0) then
+              if (number == form%numbers%point(point)) then
+                local%along(k, j) = axis(1)*form%unit
+                local%across(k, j) = normal(1)*form%unit
+              else if (number == form%numbers%point(point) + 1) then
+                local%along(k, j) = axis(2)*form%unit
+                local%across(k, j) = normal(2)*form%unit
+              end if
+            end if
+            if (rotation > 0) then
+              if (number == form%numbers%rotation(rotation)) local%rotation(k, j) = &
+                form%unit/form%numbers%size_of
+            end if
+          end associate
+        end do
+      end do
+      local%moving = min(j, most)
+      if (.not. link%bends) then
+        local%turn = local%rotation(1, :)
+      else if (is_piece(at%elastic, part)) then
+        ! From the rotations of held ends: the ends of a short piece move by the same amount.
+        local%turn = local%rotation(1, :) + local%rotation(2, :)
+        local%turn(1) = local%turn(1) - link%curve_rotation(1)
+        if (link%curves == 2) local%turn = 0.5_wp*local%turn
+      else
+        local%turn = (local%across(2, :) - local%across(1, :))/link%length
+      end if
+    end associate
   end function place_locally
 
   !> `K`: the unit matrix of strains, and the conditions.
-  subroutine assemble_mixed_stiffness(form, elastic, links, pose, value)
+  subroutine assemble_mixed_stiffness(form, at, value)
     type(mixed_form_t), intent(in) :: form         !! of the linkage
-    type(elastic_linkage_t), intent(in) :: elastic !! at this position
-    type(link_modes_t), intent(in) :: links(:)     !! (parts) of these lengths
-    type(pose_t), intent(in) :: pose               !! of points and parts
+    type(elastic_position_t), intent(in) :: at     !! of it
     real(wp), intent(out) :: value(:)              !! of the elements
 
     real(wp) :: row(form%numbers%unknowns)
@@ -110,17 +108,16 @@ contains
     value = 0.0_wp
     row = 0.0_wp
     n = 0
-    do k = 1, size(links)
-      n = max(n, 2*(1 + size(elastic%linkage%bodies(k)%further)))
+    do k = 1, size(at%model%links)
+      n = max(n, 2*(1 + size(at%elastic%linkage%bodies(k)%further)))
     end do
     allocate (rows(size(row), n), source=0.0_wp)
-    do k = 1, size(links)
-      if (links(k)%bends) then
-        call add_part_conditions(form, links(k), place_locally(form, elastic, links(k), k, pose), &
-          k, value)
+    do k = 1, size(at%model%links)
+      if (at%model%links(k)%bends) then
+        call add_part_conditions(form, at%model%links(k), place_locally(form, at, k), k, value)
       else
-        n = 2*(1 + size(elastic%linkage%bodies(k)%further))
-        call add_rigid(elastic, form%numbers, pose, k, rows(:, :n))
+        n = 2*(1 + size(at%elastic%linkage%bodies(k)%further))
+        call add_rigid(at, k, rows(:, :n))
         do i = 1, n
           call add_condition(form, k, form%elements%first(k + 1) - n + i - 1, 1.0_wp, rows(:, i), &
             value)
@@ -128,25 +125,24 @@ contains
         end do
       end if
     end do
-    do i = 1, size(elastic%springs)
+    do i = 1, size(at%elastic%springs)
       k = form%spring + i
-      call add_spring(elastic, form%numbers, pose, elastic%springs(i), row)
-      call add_spring_condition(form, elastic%springs(i), k, row, value)
+      call add_spring(at, at%elastic%springs(i), row)
+      call add_spring_condition(form, at%elastic%springs(i), k, row, value)
       call clear(form, k, row)
     end do
-    do i = 1, size(elastic%contact)
+    do i = 1, size(at%elastic%contact)
       if (form%numbers%line_constraint(i) == 0) cycle
       k = form%line + i
-      call add_line(elastic, form%numbers, pose, i, normal_to(line_direction(elastic, pose, i)), &
-        row)
+      call add_line(at, i, normal_to(line_direction(at%elastic, at%pose, i)), row)
       call add_condition(form, k, form%elements%first(k + 1) - 1, 1.0_wp, row, value)
       call clear(form, k, row)
     end do
-    do i = 1, size(elastic%linkage%drives)
+    do i = 1, size(at%elastic%linkage%drives)
       if (form%numbers%drive_constraint(i) == 0) cycle
       k = form%drive + i
-      call add_line(elastic, form%numbers, pose, elastic%linkage%drives(i)%slider, &
-        line_direction(elastic, pose, elastic%linkage%drives(i)%slider), row)
+      call add_line(at, at%elastic%linkage%drives(i)%slider, line_direction(at%elastic, at%pose, &
+        at%elastic%linkage%drives(i)%slider), row)
       call add_condition(form, k, form%elements%first(k + 1) - 1, 1.0_wp, row, value)
       call clear(form, k, row)
     end do
@@ -260,11 +256,9 @@ contains
   end subroutine clear
 
   !> `M`.
-  pure subroutine assemble_mixed_mass(form, elastic, links, pose, value)
+  pure subroutine assemble_mixed_mass(form, at, value)
     type(mixed_form_t), intent(in) :: form         !! of the linkage
-    type(elastic_linkage_t), intent(in) :: elastic !! at this position
-    type(link_modes_t), intent(in) :: links(:)     !! (parts) of these lengths
-    type(pose_t), intent(in) :: pose               !! of points and parts
+    type(elastic_position_t), intent(in) :: at     !! of it
     real(wp), intent(out) :: value(:)              !! of the elements [s²]
 
     type(local_t) :: local
@@ -272,34 +266,36 @@ contains
     integer :: i, j, k, n, start
 
     value = 0.0_wp
-    do k = 1, size(links)
-      local = place_locally(form, elastic, links(k), k, pose)
-      call add_part_mass(form, links(k), local, k, value)
+    do k = 1, size(at%model%links)
+      local = place_locally(form, at, k)
+      call add_part_mass(form, at%model%links(k), local, k, value)
     end do
-    do i = 1, size(elastic%is_fixed)
+    do i = 1, size(at%elastic%is_fixed)
       k = form%point + i
       n = form%elements%first(k + 1) - form%elements%first(k)
       start = form%elements%value_first(k) - 1
       do j = 1, n
-        value(start + (j - 1)*n + j) = elastic%linkage%pin_mass(i)*form%unit**2
+        value(start + (j - 1)*n + j) = at%elastic%linkage%pin_mass(i)*form%unit**2
       end do
     end do
-    do i = 1, size(elastic%carried)
-      associate (this => elastic%carried(i))
+    do i = 1, size(at%elastic%carried)
+      associate (this => at%elastic%carried(i))
         k = form%carried + i
         n = form%elements%first(k + 1) - form%elements%first(k)
         start = form%elements%value_first(k)
         square(:n, :n) = 0.0_wp
-        call add_carried(form, elastic, pose, i, square(:n, :n))
+        call add_carried(form, at, i, square(:n, :n))
         value(start:start + n*n - 1) = reshape(square(:n, :n), [n*n])
       end associate
     end do
     k = form%cut
-    do i = 1, size(elastic%ways)
-      do j = 1, size(elastic%ways(i)%cuts)
+    do i = 1, size(at%elastic%ways)
+      do j = 1, size(at%elastic%ways(i)%cuts)
         k = k + 1
-        if (elastic%ways(i)%cuts(j)%rotation > 0) value(form%elements%value_first(k)) = &
-          elastic%ways(i)%cuts(j)%inertia*(form%unit/form%numbers%size_of)**2
+        associate (cut => at%elastic%ways(i)%cuts(j))
+          if (cut%rotation > 0) value(form%elements%value_first(k)) = cut%inertia* &
+            (form%unit/form%numbers%size_of)**2
+        end associate
       end do
     end do
   end subroutine assemble_mixed_mass
@@ -378,17 +374,16 @@ contains
   end subroutine set_block
 
   !> The mass of what a cut carries, between the displacements of its point and its rotation.
-  pure subroutine add_carried(form, elastic, pose, number, mass)
+  pure subroutine add_carried(form, at, number, mass)
     type(mixed_form_t), intent(in) :: form
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(pose_t), intent(in) :: pose
+    type(elastic_position_t), intent(in) :: at
     integer, intent(in) :: number
     real(wp), intent(inout) :: mass(:, :)
 
     real(wp) :: moved(2, size(mass, 1)), turn(size(mass, 1)), arm(2)
     integer :: j, n
 
-    associate (this => elastic%carried(number))
+    associate (this => at%elastic%carried(number))
       moved = 0.0_wp
       turn = 0.0_wp
       n = 0
@@ -398,7 +393,7 @@ contains
         n = 2
       end if
       if (this%rotation > 0) turn(n + 1) = form%unit/form%numbers%size_of
-      arm = normal_to(turned(this%arm, pose%direction(:, elastic%ways(this%way)%first_part)))
+      arm = normal_to(turned(this%arm, at%pose%direction(:, at%elastic%ways(this%way)%first_part)))
       do j = 1, size(turn)
         moved(:, j) = moved(:, j) + turn(j)*arm
       end do
@@ -410,13 +405,10 @@ contains
   end subroutine add_carried
 
   !> Adds `K_G` of a load case.
-  subroutine add_mixed_geometric(form, elastic, links, pose, loads, forces, case, value)
+  subroutine add_mixed_geometric(form, at, loaded, case, value)
     type(mixed_form_t), intent(in) :: form         !! of the linkage
-    type(elastic_linkage_t), intent(in) :: elastic !! at this position
-    type(link_modes_t), intent(in) :: links(:)     !! (parts) of these lengths
-    type(pose_t), intent(in) :: pose               !! of points and parts
-    type(part_loads_t), intent(in) :: loads        !! of this position
-    type(part_forces_t), intent(in) :: forces      !! of these
+    type(elastic_position_t), intent(in) :: at     !! of it
+    type(loaded_parts_t), intent(in) :: loaded     !! its loads and forces
     integer, intent(in) :: case                    !! number of the load case
     real(wp), intent(inout) :: value(:)            !! of the elements
 
@@ -424,33 +416,34 @@ contains
     real(wp) :: row(form%numbers%unknowns), turn(form%numbers%unknowns), constant
     integer :: i, k
 
-    do k = 1, size(links)
-      local = place_locally(form, elastic, links(k), k, pose)
-      call add_part_stiffness(form, links(k), local, forces%axial(:, k, case), k, value)
+    do k = 1, size(at%model%links)
+      local = place_locally(form, at, k)
+      call add_part_stiffness(form, at%model%links(k), local, loaded%forces%axial(:, k, case), k, &
+        value)
     end do
     row = 0.0_wp
     turn = 0.0_wp
-    do i = 1, size(elastic%contact)
-      if (elastic%guide_rotation(i) <= 0) cycle
+    do i = 1, size(at%elastic%contact)
+      if (at%elastic%guide_rotation(i) <= 0) cycle
       k = form%line + i
-      call add_line(elastic, form%numbers, pose, i, line_direction(elastic, pose, i), row)
-      turn(form%numbers%rotation(elastic%guide_rotation(i))) = 1.0_wp/form%numbers%size_of
-      call add_product(form, k, forces%guide(i, case), row, turn, value)
+      call add_line(at, i, line_direction(at%elastic, at%pose, i), row)
+      turn(form%numbers%rotation(at%elastic%guide_rotation(i))) = 1.0_wp/form%numbers%size_of
+      call add_product(form, k, loaded%forces%guide(i, case), row, turn, value)
       call clear(form, k, row)
       call clear(form, k, turn)
     end do
     constant = merge(1.0_wp, 0.0_wp, case == constant_case)
-    do i = 1, size(elastic%springs)
-      call add_pull(elastic%springs(i), form%spring + i, forces%spring(i, case))
+    do i = 1, size(at%elastic%springs)
+      call add_pull(at%elastic%springs(i), form%spring + i, loaded%forces%spring(i, case))
     end do
-    do i = 1, size(elastic%tensions)
-      call add_pull(elastic%tensions(i), form%tension + i, constant*loads%tension(i))
+    do i = 1, size(at%elastic%tensions)
+      call add_pull(at%elastic%tensions(i), form%tension + i, constant*loaded%loads%tension(i))
     end do
-    do i = 1, size(elastic%carried)
-      associate (this => elastic%carried(i))
+    do i = 1, size(at%elastic%carried)
+      associate (this => at%elastic%carried(i))
         if (this%rotation <= 0) cycle
         turn(form%numbers%rotation(this%rotation)) = 1.0_wp/form%numbers%size_of
-        call add_product(form, form%carried + i, 0.5_wp*loads%carried(4, i, case), turn, &
+        call add_product(form, form%carried + i, 0.5_wp*loaded%loads%carried(4, i, case), turn, &
           turn, value)
         turn(form%numbers%rotation(this%rotation)) = 0.0_wp
       end associate
@@ -467,9 +460,9 @@ contains
       real(wp) :: way(2)
 
       if (spring%turns) return
-      way = spring_way(elastic, pose, spring)
+      way = spring_way(at%elastic, at%pose, spring)
       if (.not. norm2(way) > 0.0_wp) return
-      call add_stretch(elastic, form%numbers, pose, spring, normal_to(way)/norm2(way), row)
+      call add_stretch(at, spring, normal_to(way)/norm2(way), row)
       call add_product(form, element, 0.5_wp*pull/norm2(way), row, row, value)
       call clear(form, element, row)
     end subroutine add_pull
@@ -527,11 +520,9 @@ contains
 
   !> Work of a load case on every unknown. It leaves own modes out, which carry no force between
   !! parts.
-  pure function mixed_work(form, elastic, links, pose, loads, case) result(work)
+  pure function mixed_work(form, at, loads, case) result(work)
     type(mixed_form_t), intent(in) :: form         !! of the linkage
-    type(elastic_linkage_t), intent(in) :: elastic !! at this position
-    type(link_modes_t), intent(in) :: links(:)     !! (parts) of these lengths
-    type(pose_t), intent(in) :: pose               !! of points and parts
+    type(elastic_position_t), intent(in) :: at     !! of it
     type(part_loads_t), intent(in) :: loads        !! of this position
     integer, intent(in) :: case                    !! number of the load case
     real(wp) :: work(form%unknowns)
@@ -542,38 +533,38 @@ contains
 
     work = 0.0_wp
     associate (of_case => loads%unit%of_case(case))
-      do k = 1, size(links)
-        local = place_locally(form, elastic, links(k), k, pose)
+      do k = 1, size(at%model%links)
+        local = place_locally(form, at, k)
         on_part = 0.0_wp
         associate (m => local%moving)
-          call add_link_work(elastic%linkage, links(k), k, local%across(:, :m), &
-            local%along(:, :m), local%turn(:m), pose, of_case, on_part(:m))
+          call add_link_work(at%elastic%linkage, at%model%links(k), k, local%across(:, :m), &
+            local%along(:, :m), local%turn(:m), at%pose, of_case, on_part(:m))
           do i = 1, 2
             if (.not. abs(loads%end_couple(i, k, case)) > 0.0_wp) cycle
-            if (elastic%rotation(i, k) > 0) call add_moment(form, elastic%rotation(i, k), &
+            if (at%elastic%rotation(i, k) > 0) call add_moment(form, at%elastic%rotation(i, k), &
               loads%end_couple(i, k, case), work)
-            if (elastic%rotation(i, k) == 0) on_part(:m) = on_part(:m) + loads%end_couple(i, k, &
-              case)*turn_of_end(links(k), local%turn(:m), local%across(3:, :m), i)
+            if (at%elastic%rotation(i, k) == 0) on_part(:m) = on_part(:m) + loads%end_couple(i, k, &
+              case)*turn_of_end(at%model%links(k), local%turn(:m), local%across(3:, :m), i)
           end do
         end associate
-        first = form%elements%first(k) + local%own + merge(1, 0, links(k)%bends) - 1
+        first = form%elements%first(k) + local%own + merge(1, 0, at%model%links(k)%bends) - 1
         do j = 1, local%moving
           associate (entry => work(form%elements%unknown(first + j)))
             entry = entry + on_part(j)
           end associate
         end do
       end do
-      do i = 1, size(elastic%is_fixed)
-        call add_force(form, i, of_case%pin_force(:, i) - elastic%linkage%pin_mass(i)* &
+      do i = 1, size(at%elastic%is_fixed)
+        call add_force(form, i, of_case%pin_force(:, i) - at%elastic%linkage%pin_mass(i)* &
           of_case%field%at_pin(:, i), work)
       end do
-      do i = 1, elastic%rotations
+      do i = 1, at%elastic%rotations
         call add_moment(form, i, loads%moment(i, case), work)
       end do
-      do i = 1, size(elastic%carried)
-        call add_force(form, elastic%carried(i)%point, loads%carried(:2, i, case), work)
-        if (elastic%carried(i)%rotation > 0) call add_moment(form, elastic%carried(i)%rotation, &
-          loads%carried(3, i, case), work)
+      do i = 1, size(at%elastic%carried)
+        call add_force(form, at%elastic%carried(i)%point, loads%carried(:2, i, case), work)
+        if (at%elastic%carried(i)%rotation > 0) call add_moment(form, &
+          at%elastic%carried(i)%rotation, loads%carried(3, i, case), work)
       end do
     end associate
 

@@ -2,7 +2,7 @@
 module mixed_positions
   use bordered_eigensolver, only: bordered_modes_t, start_t
   use bordered_matrix, only: layout_t, new_bordered_layout
-  use elastic_linkages, only: elastic_linkage_t
+  use elastic_positions, only: elastic_position_t
   use element_eigensolver, only: check_conditions, element_pencil_t, find_element_modes
   use element_matrices, only: absolute_times_vector, times_vector
   use errors, only: error_of_dead_point, error_t, set_error
@@ -16,8 +16,8 @@ module mixed_positions
     mixed_work
   use modal_assurance, only: mode_prints_t, new_mode_prints
   use part_displacements, only: chords_of
-  use part_forces, only: make_room, part_forces_t, take_forces
-  use part_poses, only: part_loads_t
+  use part_force_types, only: loaded_parts_t
+  use part_forces, only: make_room, take_forces
   use pin_displacements, only: chords_t
   use poses, only: pose_t, refuse_change_point
   implicit none (type, external)
@@ -39,25 +39,22 @@ module mixed_positions
 contains
 
   !> Numbers of a linkage.
-  pure function new_mixed_position(elastic, links) result(mixed)
-    type(elastic_linkage_t), intent(in) :: elastic !! parts, points, rotations
-    type(link_modes_t), intent(in) :: links(:)     !! (parts)
+  pure function new_mixed_position(at) result(mixed)
+    type(elastic_position_t), intent(in) :: at !! of the linkage
     type(mixed_position_t) :: mixed
 
-    mixed%form = new_mixed_form(elastic, links)
+    mixed%form = new_mixed_form(at)
     mixed%pencil%conditions = mixed%form%conditions
   end function new_mixed_position
 
   !> K and M of a position, without loads.
-  subroutine assemble_rest(elastic, links, pose, mixed)
-    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
-    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
-    type(pose_t), intent(in) :: pose                !! of points and parts
+  subroutine assemble_rest(at, mixed)
+    type(elastic_position_t), intent(in) :: at      !! with parts that are placed
     type(mixed_position_t), intent(inout) :: mixed  !! of this linkage
 
     integer :: n
 
-    call place_elements(elastic, links, mixed%form)
+    call place_elements(at%elastic, at%model%links, mixed%form)
     associate (form => mixed%form, pencil => mixed%pencil)
       n = size(form%elements%value_first)
       n = form%elements%value_first(n) - 1
@@ -65,8 +62,8 @@ contains
         if (size(pencil%mass) /= n) deallocate (pencil%mass, mixed%at_rest)
       end if
       if (.not. allocated(pencil%mass)) allocate (pencil%mass(n), mixed%at_rest(n))
-      call assemble_mixed_stiffness(form, elastic, links, pose, mixed%at_rest)
-      call assemble_mixed_mass(form, elastic, links, pose, pencil%mass)
+      call assemble_mixed_stiffness(form, at, mixed%at_rest)
+      call assemble_mixed_mass(form, at, pencil%mass)
       pencil%stiffness = mixed%at_rest
     end associate
   end subroutine assemble_rest
@@ -90,26 +87,23 @@ contains
   end subroutine hold
 
   !> The forces of all load cases, and how the linkage yields to them.
-  pure subroutine find_mixed_forces(linkage, elastic, links, pose, loads, mixed, forces, solution)
+  pure subroutine find_mixed_forces(linkage, at, mixed, loaded, solution)
     type(linkage_t), intent(in) :: linkage          !! that moves: its drives
-    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
-    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
-    type(pose_t), intent(in) :: pose                !! of points and parts
-    type(part_loads_t), intent(in) :: loads         !! of this position
+    type(elastic_position_t), intent(in) :: at      !! of it, with parts that are placed
     type(mixed_position_t), intent(in) :: mixed     !! with the factor of `hold`
-    type(part_forces_t), intent(out) :: forces
+    type(loaded_parts_t), intent(inout) :: loaded   !! with loads; gets their forces
     real(wp), allocatable, intent(out) :: solution(:, :) !! (unknowns, cases)
 
     real(wp) :: rest(mixed%form%unknowns), product(mixed%form%unknowns)
     integer :: i, n
 
-    call make_room(linkage, elastic, loads, mixed%form%numbers, case_count, forces)
+    call make_room(linkage, at, loaded%loads, case_count, loaded%forces)
     associate (form => mixed%form)
       allocate (solution(form%unknowns, case_count), source=0.0_wp)
       n = form%multipliers + size(form%numbers%rows)
       do i = 1, case_count
-        if (.not. loads%unit%occurs(i)) cycle
-        rest = mixed_work(form, elastic, links, pose, loads, i)
+        if (.not. loaded%loads%unit%occurs(i)) cycle
+        rest = mixed_work(form, at, loaded%loads, i)
         solution(:, i) = rest
         call solve(form%plan, mixed%pencil%factor, solution(:, i))
         ! Refined once: forces pass from part to part with all their digits.
@@ -118,20 +112,17 @@ contains
         call solve(form%plan, mixed%pencil%factor, rest)
         solution(:, i) = solution(:, i) + rest
         ! The unknowns of `displacements_of` these solutions.
-        forces%border(i, i) = 1.0_wp
-        call take_forces(elastic, links, pose, loads, form%numbers, &
-          solution(form%rows + 1:form%displacements, i), solution(n + 1:, i)/form%unit, i, forces)
+        loaded%forces%border(i, i) = 1.0_wp
+        call take_forces(at, solution(form%rows + 1:form%displacements, i), solution(n + 1:, &
+          i)/form%unit, i, loaded)
       end do
     end associate
   end subroutine find_mixed_forces
 
   !> K_G of every load case that occurs.
-  subroutine stiffen(elastic, links, pose, loads, forces, mixed)
-    type(elastic_linkage_t), intent(in) :: elastic  !! at this position
-    type(link_modes_t), intent(in) :: links(:)      !! (parts) of these lengths
-    type(pose_t), intent(in) :: pose                !! of points and parts
-    type(part_loads_t), intent(in) :: loads         !! of this position
-    type(part_forces_t), intent(in) :: forces       !! of these loads
+  subroutine stiffen(at, loaded, mixed)
+    type(elastic_position_t), intent(in) :: at     !! with parts that are placed
+    type(loaded_parts_t), intent(in) :: loaded      !! its loads and forces
     type(mixed_position_t), intent(inout) :: mixed
 
     integer :: i
@@ -142,10 +133,9 @@ contains
     if (.not. allocated(mixed%unit_stiffness)) allocate (mixed%unit_stiffness( &
       size(mixed%at_rest), case_count), source=0.0_wp)
     do i = 1, case_count
-      if (.not. loads%unit%occurs(i)) cycle
+      if (.not. loaded%loads%unit%occurs(i)) cycle
       mixed%unit_stiffness(:, i) = 0.0_wp
-      call add_mixed_geometric(mixed%form, elastic, links, pose, loads, forces, i, &
-        mixed%unit_stiffness(:, i))
+      call add_mixed_geometric(mixed%form, at, loaded, i, mixed%unit_stiffness(:, i))
     end do
   end subroutine stiffen
 
@@ -183,30 +173,24 @@ contains
   end subroutine set_stiffness
 
   !> What some solutions do to points and parts.
-  pure function displacements_of(form, elastic, links, pose, z) result(chords)
+  pure function displacements_of(form, at, z) result(chords)
     type(mixed_form_t), intent(in) :: form         !! of the linkage
-    type(elastic_linkage_t), intent(in) :: elastic !! at this position
-    type(link_modes_t), intent(in) :: links(:)     !! (parts)
-    type(pose_t), intent(in) :: pose               !! of points and parts
+    type(elastic_position_t), intent(in) :: at     !! of it, with parts that are placed
     real(wp), intent(in) :: z(:, :)                !! (unknowns, solutions)
     type(chords_t) :: chords
 
-    chords = chords_of(elastic, links, pose, form%numbers, &
-      form%unit*z(form%displacements + 1:form%multipliers, :), &
-      z(form%rows + 1:form%displacements, :))
+    chords = chords_of(at, form%unit*z(form%displacements + 1:form%multipliers, :), z(form%rows + &
+      1:form%displacements, :))
   end function displacements_of
 
   !> Modes as those of a bordered matrix whose border are the modes themselves: the unknown of a
   !! mode is the norm of its y, so that squares of unknowns are energies.
-  pure subroutine modes_on_border(mixed, elastic, links, pose, modes, chords, layout, border_mass, &
-    found)
+  pure subroutine modes_on_border(mixed, at, modes, chords, border_mass, found)
     type(mixed_position_t), intent(in) :: mixed     !! at this position
-    type(elastic_linkage_t), intent(in) :: elastic  !! its parts
-    type(link_modes_t), intent(in) :: links(:)      !! (parts)
-    type(pose_t), intent(in) :: pose                !! of points and parts
+    type(elastic_position_t), intent(inout) :: at   !! of it; the layout of its model becomes that
+                                                       !! of the border and own modes
     type(bordered_modes_t), intent(in) :: modes     !! in the unknowns of the form
     type(chords_t), intent(out) :: chords           !! what unit unknowns of the border do
-    type(layout_t), intent(out) :: layout           !! of the border and own modes
     real(wp), allocatable, intent(out) :: border_mass(:, :) !! M between the border's [s²]
     type(bordered_modes_t), intent(out) :: found
 
@@ -215,20 +199,20 @@ contains
     integer :: i, n
 
     n = size(modes%lambda)
-    layout = new_bordered_layout(n, links%modes, links%axial_modes)
+    at%model%layout = new_bordered_layout(n, at%model%links%modes, at%model%links%axial_modes)
     found%lambda = modes%lambda
     found%error = modes%error
     found%near = modes%near
-    allocate (found%vector(layout%unknowns, n), source=0.0_wp)
+    allocate (found%vector(at%model%layout%unknowns, n), source=0.0_wp)
     z = modes%vector
     do i = 1, n
       norm = norm2(z(mixed%form%rows + 1:mixed%form%displacements, i))
       if (.not. norm > 0.0_wp) norm = tiny(norm)
       found%vector(i, i) = norm
-      call take_own(mixed%form, links, layout, z(:, i), found%vector(:, i))
+      call take_own(mixed%form, at%model%links, at%model%layout, z(:, i), found%vector(:, i))
       z(:, i) = z(:, i)/norm
     end do
-    chords = displacements_of(mixed%form, elastic, links, pose, z)
+    chords = displacements_of(mixed%form, at, z)
     allocate (border_mass(n, n), product(size(z, 1)))
     do i = 1, n
       without_own = z(:, i)

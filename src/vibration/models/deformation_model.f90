@@ -12,7 +12,7 @@ module deformation_model
   use beam_element, only: axial_degree
   use beam_mesh, only: beam_t
   use body_lumps, only: has_turning_lumps, lump_inertias, lump_offsets, lump_places, pieces_of
-  use bordered_matrix, only: layout_t
+  use deformation_model_types, only: deformation_model_t
   use deformation_shapes, only: axial_shapes, bending_shapes, deformation_shapes_t
   use errors, only: error_t
   use kinds, only: wp
@@ -35,19 +35,6 @@ module deformation_model
 
   !> Masses nearer to each other than this share of the length turn together.
   real(wp), parameter :: least_distance = 1.0e-9_wp
-
-  type :: deformation_model_t
-    integer, allocatable :: elements(:)         !! (bodies) of equal length; 0: a continuous link,
-                                                !! one element between masses along the link
-    integer, allocatable :: order(:)            !! (bodies) polynomial degree of the transverse
-                                                !! displacement, the highest of all elements
-    type(link_degrees_t), allocatable :: degrees(:) !! (bodies) of continuous links, piece by piece
-    logical, allocatable :: lumped(:)           !! (bodies) axial force constant in each element;
-                                                !! else quadratic along the link
-    type(link_modes_t), allocatable :: links(:) !! (bodies) own modes, or a rigid link
-    type(layout_t) :: layout                    !! of the unknowns in the bordered matrices
-    logical :: mixed = .false.                  !! many links: equations are in mixed form
-  end type deformation_model_t
 
 contains
 

@@ -13,10 +13,10 @@ module order_choice
   use link_degrees, only: link_degrees_t, uniform_degrees
   use link_store, only: link_store_t
   use linkages, only: body_t, linkage_t
+  use mixed_positions, only: modes_on_border
   use order_changes, only: part_count, part_of
   use order_errors, only: order_error
   use position_assembly, only: assemble_position, assembled_t, choose_form, new_assembled
-  use position_modes, only: modes_of_position
   use positions, only: positions_t
   use speed_solver, only: new_speed_work, solve_speeds, speed_work_t
   use structures, only: structure_t
@@ -385,7 +385,8 @@ contains
         call add_force_range(structure%elastic%linkage, present_force, sample)
         sample%highest = max(sample%highest, maxval(abs(found(k)%lambda(:demand%modes))))
         if (allocated(here%mixed)) then
-          call modes_of_position(here, found(k), work%equations, modes)
+          call modes_on_border(here%mixed, here%elastic_position_t, found(k), &
+            work%equations%chords, work%equations%pencil%mass%border, modes)
           sample%error = max(sample%error, maxval(order_error(here%model, work%equations, &
             present_force, modes, modes%near), dim=2))
         else

@@ -27,8 +27,8 @@ contains
     size_of = force_sizes(here%unit_force, factor)
     if (size(here%unit_force) == 0 .or. here%elastic%in_closed_form) return
     size_of = size_of + largest_load(here, factor) + abs(factor(constant_case))*( &
-      pulls(here, here%elastic%springs, here%part_loads%pull) + &
-      pulls(here, here%elastic%tensions, here%part_loads%tension))
+      pulls(here, here%elastic%springs, here%loaded%loads%pull) + &
+      pulls(here, here%elastic%tensions, here%loaded%loads%tension))
   end function axial_sizes
 
   !> What springs pull; of those that turn, their torques over the shortest span [N].
@@ -74,8 +74,8 @@ contains
 
     largest = 0.0_wp
     do i = 1, case_count
-      if (.not. here%part_loads%unit%occurs(i)) cycle
-      associate (case => here%part_loads%unit%of_case(i), linkage => here%elastic%linkage)
+      if (.not. here%loaded%loads%unit%occurs(i)) cycle
+      associate (case => here%loaded%loads%unit%of_case(i), linkage => here%elastic%linkage)
         do k = 1, size(linkage%pin_mass)
           largest = max(largest, abs(factor(i))*(norm2(case%pin_force(:, k)) + &
             linkage%pin_mass(k)*norm2(case%field%at_pin(:, k))))
@@ -88,8 +88,8 @@ contains
           if (allocated(case%body_force)) largest = max(largest, &
             abs(factor(i))*norm2(case%body_force(:, k)))
         end do
-        do k = 1, size(here%part_loads%carried, 2)
-          largest = max(largest, abs(factor(i))*norm2(here%part_loads%carried(:2, k, i)))
+        do k = 1, size(here%loaded%loads%carried, 2)
+          largest = max(largest, abs(factor(i))*norm2(here%loaded%loads%carried(:2, k, i)))
         end do
       end associate
     end do
@@ -114,10 +114,10 @@ contains
       work = largest_work(here%mixed, factor, mixed_modes, modes)
       return
     end if
-    n = size(here%part_forces%second_order, 1)
+    n = size(here%loaded%forces%second_order, 1)
     allocate (sizes(n, n), source=0.0_wp)
     do i = 1, case_count
-      sizes = sizes + abs(factor(i)*here%part_forces%second_order(:, :, i))
+      sizes = sizes + abs(factor(i)*here%loaded%forces%second_order(:, :, i))
     end do
     do i = 1, modes
       associate (size_of => abs(found%vector(:n, i)))
