@@ -22,6 +22,11 @@ module damped_frequencies
 
   public :: modes_for_dampers, solve_damped_speed, whole_change
 
+  !> Errors of eigenvalues of which those of roots are made, relative.
+  type :: root_errors_t
+    real(wp), allocatable :: orders(:), rounding(:), of_matrices(:) !! (roots)
+  end type root_errors_t
+
 contains
 
   !> Number of undamped modes that are looked for: with dampers, more than are wanted.
@@ -43,28 +48,28 @@ contains
   !! loads also of −|s|², and their estimated errors are added.
   !!
   !! Errors, in `result%outcome`: those of `find_damped_modes`.
-  subroutine solve_damped_speed(structure, state, request, factor, speed, undamped, work, result)
+  subroutine solve_damped_speed(structure, state, request, speed, work, result)
     type(structure_t), intent(in) :: structure     !! with dampers
     type(state_t), intent(in) :: state             !! with a pose
     type(mode_request_t), intent(in) :: request
-    real(wp), intent(in) :: factor(:)              !! (cases) of the unit loads
     integer, intent(in) :: speed                   !! number
-    type(bordered_modes_t), intent(in) :: undamped !! `modes_for_dampers` of them at least
-    type(position_work_t), intent(inout) :: work   !! with the equations of this position
+    type(position_work_t), intent(inout) :: work   !! with the equations of this position, and
+                                                   !! `modes_for_dampers` at least without dampers
     type(position_result_t), intent(inout) :: result !! of this speed
 
     type(damped_modes_t) :: found
     type(bordered_modes_t) :: parts
+    type(root_errors_t) :: errors, more
     type(error_t), allocatable :: error
-    real(wp), allocatable :: orders(:), rounding(:), of_matrices(:), own(:), rate(:), gain(:)
+    real(wp), allocatable :: own(:), rate(:), gain(:)
     real(wp) :: size_of
     integer :: i, modes
 
     associate (equations => work%continuum%equations, dampers => structure%elastic%dampers)
-      call set_speed(equations, factor)
+      call set_speed(equations, work%factor(:, speed))
       call find_damped_modes(equations%pencil, work%here%damper_rows, dampers%damping, &
-        request%modes, undamped, modes_for_dampers(structure, work%here%model, request%modes), &
-        found, error)
+        request%modes, work%continuum%found(speed), modes_for_dampers(structure, &
+        work%here%model, request%modes), found, error)
     end associate
     result%counts%factorizations = result%counts%factorizations + found%solutions
     if (allocated(error)) then
@@ -73,32 +78,26 @@ contains
     end if
     result%counts%proofs = result%counts%proofs + 1
     modes = size(found%s)
-    allocate (orders(modes), rounding(modes), of_matrices(modes))
     parts = parts_of_roots(found, 1.0_wp)
-    call find_errors(structure, state, factor, parts, work, result, orders, rounding, of_matrices)
+    call find_errors(structure, state, speed, parts, work, result, errors)
     if (work%continuum%equations%pencil%loaded) then
       parts = parts_of_roots(found, -1.0_wp)
-      block
-        real(wp), dimension(modes) :: more_orders, more_rounding, more_of_matrices
-
-        call find_errors(structure, state, factor, parts, work, result, more_orders, &
-          more_rounding, more_of_matrices)
-        orders = max(orders, more_orders)
-        rounding = max(rounding, more_rounding)
-        of_matrices = max(of_matrices, more_of_matrices)
-      end block
+      call find_errors(structure, state, speed, parts, work, result, more)
+      errors%orders = max(errors%orders, more%orders)
+      errors%rounding = max(errors%rounding, more%rounding)
+      errors%of_matrices = max(errors%of_matrices, more%of_matrices)
     end if
     call find_slopes(work, structure%elastic%dampers%damping, found, gain, rate)
     ! Dampers move otherwise with the position, too: |s| yᴴCy is at most |s|² yᴴMy + yᴴKy, of which
     ! the rest of this error is a share.
-    rounding = 2.0_wp*rounding
+    errors%rounding = 2.0_wp*errors%rounding
     allocate (own(modes))
     do i = 1, modes
       size_of = abs(found%s(i))
       own(i) = 0.0_wp
       if (.not. size_of > 0.0_wp) cycle
-      own(i) = whole_change(gain(i)*size_of*(orders(i) + rounding(i) + of_matrices(i)), &
-        distance_from_others(found, i))/size_of + found%error(i)
+      own(i) = whole_change(gain(i)*size_of*(errors%orders(i) + errors%rounding(i) + &
+        errors%of_matrices(i)), distance_from_others(found, i))/size_of + found%error(i)
     end do
     own(:request%modes) = with_roots_above(abs(found%s), own, request%modes)
     do i = 1, request%modes
@@ -118,10 +117,10 @@ contains
     end do
     result%error(:, speed) = own(:request%modes)
     result%order_error = max(result%order_error, maxval(2.0_wp*gain(:request%modes)* &
-      orders(:request%modes)))
+      errors%orders(:request%modes)))
     if (maxval(result%error(:, speed)) > request%accuracy) result%cause(speed) = &
-      largest_error(orders(:request%modes), rounding(:request%modes), &
-      of_matrices(:request%modes) + found%error(:request%modes), &
+      largest_error(errors%orders(:request%modes), errors%rounding(:request%modes), &
+      errors%of_matrices(:request%modes) + found%error(:request%modes), &
       elastic_squares(work%here%model%layout, real(found%vector(:, :request%modes), wp)) + &
       elastic_squares(work%here%model%layout, aimag(found%vector(:, :request%modes))), &
       abs(found%s(:request%modes))**2)
@@ -146,32 +145,31 @@ contains
   end function parts_of_roots
 
   !> Relative errors of these eigenvalues, both parts together.
-  subroutine find_errors(structure, state, factor, parts, work, result, orders, rounding, &
-      of_matrices)
+  subroutine find_errors(structure, state, speed, parts, work, result, errors)
     type(structure_t), intent(in) :: structure
     type(state_t), intent(in) :: state
-    real(wp), intent(in) :: factor(:)
+    integer, intent(in) :: speed
     type(bordered_modes_t), intent(in) :: parts
     type(position_work_t), intent(in) :: work
     type(position_result_t), intent(inout) :: result
-    real(wp), intent(out) :: orders(:), rounding(:), of_matrices(:) !! (roots)
+    type(root_errors_t), intent(out) :: errors
 
     real(wp), dimension(size(parts%lambda)) :: of_orders, of_pose, of_entries, load_work
     integer :: n
 
     n = size(parts%lambda)
-    associate (unit_force => work%here%unit_force, equations => work%continuum%equations, &
+    associate (factor => work%factor(:, speed), equations => work%continuum%equations, &
         model => work%here%model)
-      of_orders = sum(order_error(model, equations, total_force(unit_force, factor), parts, n), &
-        dim=1)
+      of_orders = sum(order_error(model, equations, total_force(work%here%unit_force, factor), &
+        parts, n), dim=1)
       call find_matrix_errors(model, equations%chords, axial_sizes(work%here, factor), parts, n, &
         of_entries, load_work)
       load_work = load_work + second_order_work(work%here, factor, parts, n)
-      call pose_error(structure, model, state, factor, load_work, parts, n, of_pose, result%counts)
+      call pose_error(structure, state, speed, work, load_work, parts, of_pose, result%counts)
     end associate
-    orders = of_orders(1::2) + of_orders(2::2)
-    rounding = of_pose(1::2) + of_pose(2::2)
-    of_matrices = of_entries(1::2) + of_entries(2::2)
+    errors%orders = of_orders(1::2) + of_orders(2::2)
+    errors%rounding = of_pose(1::2) + of_pose(2::2)
+    errors%of_matrices = of_entries(1::2) + of_entries(2::2)
   end subroutine find_errors
 
   !> `|s|/|yᵀ(2sM + C)y|`, ½ where a mode swings with little damping, and `yᴴCy/|s|`.

@@ -9,7 +9,6 @@ module position_assembly
   use elastic_positions, only: elastic_position_t, new_elastic_position
   use errors, only: error_t, outcome_t
   use kinds, only: wp
-  use kinematic_coefficients, only: kinematic_coefficients_t
   use ledger, only: ledger_t
   use link_modes, only: rigid
   use linkages, only: drive_of_length
@@ -23,6 +22,7 @@ module position_assembly
   use pin_displacements, only: chords_t
   use poses, only: pose_t
   use position_equations, only: assemble_mass, assemble_unit_loads, position_equations_t
+  use positions, only: state_t
   use structures, only: find_structure_pose, has_many_parts, structure_t
   implicit none (type, external)
   private
@@ -122,12 +122,10 @@ contains
   !! Errors, speed by speed in `outcome`: a block is at an end of the part that it slides along; the
   !! linkage has other free motions than elsewhere; a link has no own modes; a link is compressed by
   !! more than its shear stiffness.
-  subroutine assemble_position(structure, model, pose, coefficients, factor, equations, here, &
-    outcome, counts)
+  subroutine assemble_position(structure, model, state, factor, equations, here, outcome, counts)
     class(structure_t), intent(in) :: structure                  !! with beams
     type(deformation_model_t), intent(in) :: model              !! of its parts
-    type(pose_t), intent(in) :: pose                            !! away from dead points
-    type(kinematic_coefficients_t), intent(in) :: coefficients  !! of this pose
+    type(state_t), intent(in) :: state            !! with a pose away from dead points
     real(wp), intent(in) :: factor(:, :)          !! (cases, speeds) of the unit loads: ω2², α2, 1
     type(position_equations_t), intent(inout) :: equations      !! of this model
     type(assembled_t), intent(inout) :: here                    !! of this model
@@ -137,12 +135,12 @@ contains
     type(error_t), allocatable :: error
     integer :: i
 
-    here%loads = find_unit_loads(structure%linkage, pose, coefficients, any(abs(factor) > 0.0_wp, &
-      dim=2))
+    here%loads = find_unit_loads(structure%linkage, state%pose, state%coefficients, &
+      any(abs(factor) > 0.0_wp, dim=2))
     if (allocated(here%mixed)) then
-      call load_mixed(structure, model, pose, .true., here, error)
+      call load_mixed(structure, model, state%pose, .true., here, error)
     else
-      call load_parts(structure, model, pose, here, equations%chords, error)
+      call load_parts(structure, model, state%pose, here, equations%chords, error)
     end if
     if (allocated(error)) then
       do i = 1, size(outcome)

@@ -48,6 +48,7 @@ module position_results
   !> Matrices of the models, and the modes of the last positions of a sweep.
   type :: position_work_t
     type(assembled_t) :: here       !! the present position
+    real(wp), allocatable :: factor(:, :) !! (cases, speeds) of the unit loads there: ω2², α2, 1
     type(speed_work_t) :: continuum !! for the continuous links
     type(speed_work_t) :: mesh      !! for the deck's mesh
   end type position_work_t

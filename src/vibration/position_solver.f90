@@ -14,7 +14,7 @@ module position_solver
   use massless_links, only: refuse_missing_modes
   use matrix_rounding, only: find_matrix_errors
   use mesh_solver, only: solve_mesh
-  use mixed_positions, only: displacements_of, find_mixed_prints, modes_on_border
+  use mixed_positions, only: displacements_of, find_mixed_prints, largest_work, modes_on_border
   use mode_prints, only: prints_of
   use nodal_solver, only: solve_nodal
   use order_errors, only: order_error, with_modes_above
@@ -80,8 +80,9 @@ contains
     result%deflection = 0.0_wp
     allocate (result%cause(n))
     result%cause = 0
-    call assemble_position(structure, models%continuum, state%pose, state%coefficients, &
-      load_factors(request), work%continuum%equations, work%here, result%outcome, result%counts)
+    work%factor = load_factors(request)
+    call assemble_position(structure, models%continuum, state, work%factor, &
+      work%continuum%equations, work%here, result%outcome, result%counts)
     if (all_failed(result%outcome)) return
     ! The basis of the border has turned: modes of the last positions are in another one.
     if (allocated(work%here%border)) then
@@ -113,73 +114,69 @@ contains
     type(position_work_t), intent(inout) :: work
     type(position_result_t), intent(inout) :: result
 
-    type(bordered_modes_t), allocatable :: found(:)
     type(bordered_modes_t) :: modes
-    real(wp) :: factor(case_count, size(request%speed))
     logical :: is_damped
     integer :: k, n, wanted
 
     n = size(request%speed)
-    factor = load_factors(request)
     is_damped = size(structure%elastic%dampers) > 0
     wanted = modes_for_dampers(structure, work%here%model, request%modes)
     call refuse_missing_modes(work%here%elastic%linkage%bodies, work%continuum%equations, &
       work%here%model%layout, wanted, result%outcome)
-    call move_alloc(work%continuum%found, found)
-    call solve_speeds(state%crank, factor, wanted, want_shapes .and. request%method == by_orders &
-      .or. is_damped, work%continuum, found, result%outcome, result%counts, work%here%mixed)
+    call solve_speeds(state%crank, work%factor, wanted, want_shapes .and. request%method == &
+      by_orders .or. is_damped, work%continuum, result%outcome, result%counts, work%here%mixed)
     if (request%follow) allocate (result%prints(n))
-    if (size(work%here%unit_force) > 0) then
-      if (allocated(work%here%mixed)) work%continuum%equations%chords = displacements_of( &
-        work%here%mixed%form, work%here%elastic_position_t, work%here%mixed%solution)
-      call find_deflection(work%continuum%equations%chords, work%here, factor, result%deflection)
-    end if
-    do k = 1, n
-      if (allocated(result%outcome(k)%error)) cycle
-      if (allocated(work%here%mixed)) then
-        call modes_on_border(work%here%mixed, work%here%elastic_position_t, found(k), &
-          work%continuum%equations%chords, work%continuum%equations%pencil%mass%border, modes)
-        call finish_speed(structure, state, request, factor(:, k), k, modes, work, result, found(k))
-        call keep_speed(request, k, want_shapes(k), modes, work, result)
-        if (request%follow) call find_mixed_prints(work%here%mixed, work%here%model%links, &
-          found(k), request%modes, result%prints(k))
-      else
-        if (is_damped) then
-          call solve_damped_speed(structure, state, request, factor(:, k), k, found(k), work, &
-            result)
-        else
-          call finish_speed(structure, state, request, factor(:, k), k, found(k), work, result)
-        end if
-        call keep_speed(request, k, want_shapes(k), found(k), work, result)
-        if (request%follow) result%prints(k) = prints_of(work%here%model, &
-          work%continuum%equations%chords, found(k), request%modes)
+    associate (here => work%here, equations => work%continuum%equations, &
+        found => work%continuum%found)
+      if (size(here%unit_force) > 0) then
+        if (allocated(here%mixed)) equations%chords = displacements_of(here%mixed%form, &
+          here%elastic_position_t, here%mixed%solution)
+        call find_deflection(equations%chords, here, work%factor, result%deflection)
       end if
-    end do
+      do k = 1, n
+        if (allocated(result%outcome(k)%error)) cycle
+        if (allocated(here%mixed)) then
+          call modes_on_border(here%mixed, here%elastic_position_t, found(k), equations%chords, &
+            equations%pencil%mass%border, modes)
+          call finish_speed(structure, state, request, k, modes, work, result)
+          call keep_speed(request, k, want_shapes(k), modes, work, result)
+          if (request%follow) call find_mixed_prints(here%mixed, here%model%links, found(k), &
+            request%modes, result%prints(k))
+        else
+          if (is_damped) then
+            call solve_damped_speed(structure, state, request, k, work, result)
+          else
+            call finish_speed(structure, state, request, k, found(k), work, result)
+          end if
+          call keep_speed(request, k, want_shapes(k), found(k), work, result)
+          if (request%follow) result%prints(k) = prints_of(here%model, equations%chords, &
+            found(k), request%modes)
+        end if
+      end do
+    end associate
     select case (request%method)
     case (by_link_modes)
-      call solve_mesh(structure, models%mesh, state, work%here%loads, request, factor, &
-        want_shapes, work%mesh, result)
+      call solve_mesh(structure, models%mesh, state, work%here%loads, request, want_shapes, &
+        work%mesh, result)
     case (by_dense, by_band)
-      call solve_nodal(structure, state, work%here%loads, request, factor, want_shapes, result)
+      call solve_nodal(structure, state, work%here%loads, request, work%factor, want_shapes, result)
     end select
-    call move_alloc(found, work%continuum%found)
   end subroutine solve_assembled
 
   !> Takes the modes of a speed, with their errors.
-  subroutine finish_speed(structure, state, request, factor, k, found, work, result, mixed_modes)
+  subroutine finish_speed(structure, state, request, k, found, work, result)
     type(structure_t), intent(in) :: structure
     type(state_t), intent(in) :: state
     type(mode_request_t), intent(in) :: request
-    real(wp), intent(in) :: factor(case_count)
     integer, intent(in) :: k                        !! number of the speed
-    type(bordered_modes_t), intent(in) :: found
+    type(bordered_modes_t), intent(in) :: found     !! in unknowns of a border and own modes
     type(position_work_t), intent(in) :: work
     type(position_result_t), intent(inout) :: result
-    type(bordered_modes_t), intent(in), optional :: mixed_modes !! the same in mixed form
 
     real(wp), dimension(request%modes) :: discretisation, rounding, of_matrices, load_work
 
-    associate (equations => work%continuum%equations, here => work%here, model => work%here%model)
+    associate (equations => work%continuum%equations, here => work%here, &
+        model => work%here%model, factor => work%factor(:, k))
       discretisation = with_modes_above(found%lambda, sum(order_error(model, equations, &
         total_force(here%unit_force, factor), found, found%near), dim=1), request%modes, &
         found%zeros)
@@ -187,9 +184,13 @@ contains
       result%lambda(:, k) = found%lambda(:request%modes)
       call find_matrix_errors(model, equations%chords, axial_sizes(here, factor), found, &
         request%modes, of_matrices, load_work)
-      load_work = load_work + second_order_work(here, factor, found, request%modes, mixed_modes)
-      call pose_error(structure, model, state, factor, load_work, found, request%modes, rounding, &
-        result%counts, mixed_modes)
+      if (allocated(here%mixed)) then
+        load_work = load_work + largest_work(here%mixed, factor, work%continuum%found(k), &
+          request%modes)
+      else
+        load_work = load_work + second_order_work(here, factor, found, request%modes)
+      end if
+      call pose_error(structure, state, k, work, load_work, found, rounding, result%counts)
       of_matrices = of_matrices + found%error(:request%modes)
       result%error(:, k) = frequency_error(discretisation + (rounding + of_matrices))
       if (maxval(result%error(:, k)) > request%accuracy) result%cause(k) = &

@@ -50,16 +50,13 @@ contains
   !!
   !! Errors, speed by speed in `outcome`: no start leads to modes that are proven complete. The
   !! modes of the last positions are then forgotten.
-  subroutine solve_speeds(place, factor, modes, accurate_vectors, work, found, outcome, counts, &
-    mixed)
+  subroutine solve_speeds(place, factor, modes, accurate_vectors, work, outcome, counts, mixed)
     real(wp), intent(in) :: place              !! crank angle, by which modes are extrapolated [deg]
     real(wp), intent(in) :: factor(:, :)       !! (cases, speeds) of the unit loads: ω2², α2, 1
     integer, intent(in) :: modes               !! number wanted
     logical, intent(in) :: accurate_vectors(:) !! (speeds) eigenvectors also to full precision
-    type(speed_work_t), intent(inout) :: work  !! with the equations of this position
-    type(bordered_modes_t), intent(inout) :: found(:) !! (speeds) at least `modes` of each; what
-                                                      !! they held is lost, but their room is used
-                                                      !! again
+    type(speed_work_t), intent(inout) :: work  !! with the equations of this position; gets at least
+                                               !! `modes` of each speed
     type(outcome_t), intent(inout) :: outcome(:)    !! (speeds) an error already present is kept
     type(ledger_t), intent(inout) :: counts    !! of the work done
     type(mixed_position_t), intent(inout), optional :: mixed !! in which modes are found; absent: in
@@ -78,15 +75,15 @@ contains
       start = extrapolated_start(work%tracks(k), place, longest_step)
       if (present(mixed)) then
         call find_mixed_modes(mixed, factor(:, k), modes, accurate_vectors(k), start, &
-          work%clearance, found(k), error)
+          work%clearance, work%found(k), error)
       else
         call set_speed(work%equations, factor(:, k))
         call find_bordered_modes(work%equations%pencil, modes, accurate_vectors(k), start, &
-          found(k), error, work%clearance)
+          work%found(k), error, work%clearance)
       end if
-      counts%factorizations = counts%factorizations + found(k)%factorizations
-      counts%reduced_solutions = counts%reduced_solutions + found(k)%reduced_solutions
-      counts%full_solutions = counts%full_solutions + found(k)%full_solutions
+      counts%factorizations = counts%factorizations + work%found(k)%factorizations
+      counts%reduced_solutions = counts%reduced_solutions + work%found(k)%reduced_solutions
+      counts%full_solutions = counts%full_solutions + work%found(k)%full_solutions
       if (allocated(error)) then
         call move_alloc(error, outcome(k)%error)
         work%tracks(k)%length = 0
@@ -94,9 +91,9 @@ contains
       end if
       counts%proofs = counts%proofs + 1
       from_track = start%modes > 0 .and. &
-        found(k)%reduced_solutions + found(k)%full_solutions == 0
+        work%found(k)%reduced_solutions + work%found(k)%full_solutions == 0
       if (from_track) counts%extrapolated = counts%extrapolated + 1
-      call remember(work%tracks(k), place, found(k), from_track)
+      call remember(work%tracks(k), place, work%found(k), from_track)
     end do
   end subroutine solve_speeds
 

@@ -7,24 +7,21 @@
 
 !> Modes followed by their shapes along crank angle and speed.
 module frequency_loci
-  use bordered_eigensolver, only: bordered_modes_t
   use errors, only: error_t, outcome_t
   use kinds, only: wp
   use kinematic_coefficients, only: find_kinematic_coefficients
-  use ledger, only: ledger_t
   use load_cases, only: case_count
   use mixed_positions, only: find_mixed_prints
   use modal_assurance, only: likeness, mode_prints_t
   use mode_prints, only: prints_of
-  use poses, only: pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
   use position_results, only: frequency_of
-  use positions, only: positions_t
+  use positions, only: positions_t, state_t
   use sorting, only: ascending_order
   use speed_solver, only: new_speed_work, solve_speeds, speed_work_t
   use structures, only: find_structure_pose, structure_t
   use sweeps, only: has_result, sweep_t
-  use vibration_models, only: load_factors, mode_request_t, vibration_models_t
+  use vibration_models, only: load_factors, mode_request_t
   implicit none (type, external)
   private
 
@@ -149,8 +146,7 @@ contains
 
     first = waypoint_on_row(positions, sweep, from)
     second = waypoint_on_row(positions, sweep, to)
-    call match(structure, sweep%models, sweep%request, first, second, most_halvings, work, &
-      sweep%counts, next, clear)
+    call match(structure, sweep, first, second, most_halvings, work, next, clear)
     mac = likeness(first%prints, second%prints)
     do j = 1, size(next)
       i = findloc(next, j, dim=1)
@@ -185,15 +181,12 @@ contains
   !!
   !! Where the shape of a mode is neither the same as that of another nor different from all, the
   !! step is cut in two. What is unclear after the last cut stays unclear.
-  recursive subroutine match(structure, models, request, first, second, halvings, work, counts, &
-    next, clear)
+  recursive subroutine match(structure, sweep, first, second, halvings, work, next, clear)
     type(structure_t), intent(in) :: structure
-    type(vibration_models_t), intent(in) :: models
-    type(mode_request_t), intent(in) :: request
+    type(sweep_t), intent(inout) :: sweep
     type(waypoint_t), intent(in) :: first, second
     integer, intent(in) :: halvings     !! that are left
     type(speed_work_t), intent(inout) :: work
-    type(ledger_t), intent(inout) :: counts
     integer, intent(out) :: next(:)     !! (modes of `first`) number of a mode of `second`
     logical, intent(out) :: clear(:)    !! (modes of `first`) their shapes leave no doubt
 
@@ -212,14 +205,13 @@ contains
     end do
     if (all(clear) .or. halvings == 0) return
     middle%place = first%place + cut*(second%place - first%place)
-    call prints_at(structure, models, request, middle%place, work, counts, middle%prints, found)
+    call prints_at(structure, sweep, middle%place, work, middle%prints, found)
     if (.not. found) return
-    call match(structure, models, request, first, middle, halvings - 1, work, counts, to_middle, &
-      to_middle_clear)
+    call match(structure, sweep, first, middle, halvings - 1, work, to_middle, to_middle_clear)
     ! If no doubtful mode reaches the middle, the second half decides nothing.
     if (any(to_middle > 0 .and. .not. clear)) then
-      call match(structure, models, request, middle, second, halvings - 1, work, counts, &
-        from_middle, from_middle_clear)
+      call match(structure, sweep, middle, second, halvings - 1, work, from_middle, &
+        from_middle_clear)
     end if
     do i = 1, size(next)
       if (clear(i)) cycle
@@ -237,47 +229,47 @@ contains
   end subroutine match
 
   !> Modes between two rows.
-  subroutine prints_at(structure, models, request, place, work, counts, prints, found)
+  subroutine prints_at(structure, sweep, place, work, prints, found)
     type(structure_t), intent(in) :: structure
-    type(vibration_models_t), intent(in) :: models
-    type(mode_request_t), intent(in) :: request
+    type(sweep_t), intent(inout) :: sweep
     real(wp), intent(in) :: place(2) !! crank angle and speed [deg, rad/s]
     type(speed_work_t), intent(inout) :: work
-    type(ledger_t), intent(inout) :: counts
     type(mode_prints_t), intent(out) :: prints
     logical, intent(out) :: found
 
-    type(pose_t) :: pose
+    type(state_t) :: state
     type(assembled_t) :: here
     type(error_t), allocatable :: error
-    type(mode_request_t) :: here_requested
-    type(bordered_modes_t) :: modes(1)
+    type(mode_request_t) :: request
     type(outcome_t) :: outcome(1)
     real(wp) :: factor(case_count, 1)
 
     found = .false.
-    call find_structure_pose(structure, place(1), pose, error)
-    counts%kinematic_solutions = counts%kinematic_solutions + 1
+    allocate (state%pose)
+    call find_structure_pose(structure, place(1), state%pose, error)
+    sweep%counts%kinematic_solutions = sweep%counts%kinematic_solutions + 1
     if (allocated(error)) return
-    here_requested = request
-    here_requested%speed = place(2:2)
-    factor = load_factors(here_requested)
+    state%coefficients = find_kinematic_coefficients(structure%linkage, state%pose)
+    request = sweep%request
+    request%speed = place(2:2)
+    factor = load_factors(request)
     ! Places between two rows come in no order, and may differ in speed alone: no track leads there.
     work%tracks(1)%length = 0
-    here = new_assembled(structure, models%continuum)
-    call assemble_position(structure, models%continuum, pose, &
-      find_kinematic_coefficients(structure%linkage, pose), factor, work%equations, here, outcome, &
-      counts)
-    if (allocated(outcome(1)%error)) return
-    call solve_speeds(place(1), factor, request%modes, [.false.], work, modes, outcome, counts, &
-      here%mixed)
-    found = .not. allocated(outcome(1)%error)
-    if (.not. found) return
-    if (allocated(here%mixed)) then
-      call find_mixed_prints(here%mixed, here%model%links, modes(1), request%modes, prints)
-    else
-      prints = prints_of(models%continuum, work%equations%chords, modes(1), request%modes)
-    end if
+    associate (model => sweep%models%continuum, modes => work%found(1))
+      here = new_assembled(structure, model)
+      call assemble_position(structure, model, state, factor, work%equations, here, outcome, &
+        sweep%counts)
+      if (allocated(outcome(1)%error)) return
+      call solve_speeds(place(1), factor, request%modes, [.false.], work, outcome, sweep%counts, &
+        here%mixed)
+      found = .not. allocated(outcome(1)%error)
+      if (.not. found) return
+      if (allocated(here%mixed)) then
+        call find_mixed_prints(here%mixed, here%model%links, modes, request%modes, prints)
+      else
+        prints = prints_of(model, work%equations%chords, modes, request%modes)
+      end if
+    end associate
   end subroutine prints_at
 
   !> Two loci that have changed places since the row before have crossed.

@@ -1,7 +1,6 @@
 !> The lowest eigenvalue at rest, approximately and independent of the deck's mesh. The rounding
 !! error of nodal matrices is compared with it.
 module rest_eigenvalues
-  use bordered_eigensolver, only: bordered_modes_t
   use deformation_model, only: deformation_model_t, new_deformation_model
   use errors, only: clear_outcome, error_t, outcome_t
   use kinds, only: wp
@@ -30,7 +29,6 @@ contains
     type(positions_t) :: positions
     type(deformation_model_t) :: model
     type(speed_work_t) :: work
-    type(bordered_modes_t) :: found(1)
     type(outcome_t) :: outcome(1)
     type(ledger_t) :: counts
     type(error_t), allocatable :: error
@@ -54,10 +52,10 @@ contains
         call clear_outcome(outcome)
         call assemble_equations(structure%linkage, model, state%pose, no_forces, at_rest, &
           work%equations, counts)
-        call solve_speeds(state%crank, at_rest, 1, [.false.], work, found, outcome, counts)
+        call solve_speeds(state%crank, at_rest, 1, [.false.], work, outcome, counts)
       end associate
       lambda(i) = huge(lambda)
-      if (.not. allocated(outcome(1)%error)) lambda(i) = found(1)%lambda(1)
+      if (.not. allocated(outcome(1)%error)) lambda(i) = work%found(1)%lambda(1)
     end do
   end function lowest_rest_eigenvalues
 

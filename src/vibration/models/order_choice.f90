@@ -351,7 +351,6 @@ contains
 
     type(speed_work_t) :: work
     type(assembled_t) :: here
-    type(bordered_modes_t), allocatable :: found(:)
     type(bordered_modes_t) :: modes
     type(outcome_t), allocatable :: outcome(:)
     real(wp), allocatable :: tried(:, :), present_force(:, :)
@@ -360,7 +359,7 @@ contains
     tried = demand%factor(:, [minloc(demand%factor(1, :), dim=1), maxloc(demand%factor(1, :), &
       dim=1)])
     if (all(abs(tried(:, 1) - tried(:, 2)) <= 0.0_wp)) tried = tried(:, :1)
-    allocate (found(size(tried, 2)), outcome(size(tried, 2)))
+    allocate (outcome(size(tried, 2)))
     work = new_speed_work(model, size(tried, 2), demand%bound)
     here = new_assembled(structure, model)
     allocate (sample%error(part_count(model%links)))
@@ -371,27 +370,27 @@ contains
     do i = 1, size(chosen)
       associate (state => positions%states(chosen(i)))
         call clear_outcome(outcome)
-        call assemble_position(structure, model, state%pose, state%coefficients, tried, &
-          work%equations, here, outcome, counts)
+        call assemble_position(structure, model, state, tried, work%equations, here, outcome, &
+          counts)
         if (allocated(here%border)) then
           if (here%border%is_new) work%tracks%length = 0
         end if
-        call solve_speeds(state%crank, tried, demand%modes, spread(.false., 1, size(found)), work, &
-          found, outcome, counts, here%mixed)
+        call solve_speeds(state%crank, tried, demand%modes, spread(.false., 1, size(outcome)), &
+          work, outcome, counts, here%mixed)
       end associate
-      do k = 1, size(found)
+      do k = 1, size(outcome)
         if (allocated(outcome(k)%error)) cycle
         present_force = total_force(here%unit_force, tried(:, k))
         call add_force_range(structure%elastic%linkage, present_force, sample)
-        sample%highest = max(sample%highest, maxval(abs(found(k)%lambda(:demand%modes))))
+        sample%highest = max(sample%highest, maxval(abs(work%found(k)%lambda(:demand%modes))))
         if (allocated(here%mixed)) then
-          call modes_on_border(here%mixed, here%elastic_position_t, found(k), &
+          call modes_on_border(here%mixed, here%elastic_position_t, work%found(k), &
             work%equations%chords, work%equations%pencil%mass%border, modes)
           sample%error = max(sample%error, maxval(order_error(here%model, work%equations, &
             present_force, modes, modes%near), dim=2))
         else
           sample%error = max(sample%error, maxval(order_error(here%model, work%equations, &
-            present_force, found(k), found(k)%near), dim=2))
+            present_force, work%found(k), work%found(k)%near), dim=2))
         end if
       end do
     end do

@@ -5,7 +5,6 @@ module load_sizes
   use kinds, only: wp
   use load_cases, only: case_count, constant_case
   use matrix_rounding, only: force_sizes
-  use mixed_positions, only: largest_work
   use position_assembly, only: assembled_t
   implicit none (type, external)
   private
@@ -97,12 +96,11 @@ contains
 
   !> Bound of what blocks on guides and springs under tension do in modes of unit mass, whatever
   !! cancels, twice [1/s²].
-  pure function second_order_work(here, factor, found, modes, mixed_modes) result(work)
-    type(assembled_t), intent(in) :: here          !! a position with its loads
+  pure function second_order_work(here, factor, found, modes) result(work)
+    type(assembled_t), intent(in) :: here          !! a position with its loads, with a border
     real(wp), intent(in) :: factor(case_count)     !! of the unit loads: ω2², α2, 1
     type(bordered_modes_t), intent(in) :: found    !! modes at this position and speed
     integer, intent(in) :: modes                   !! number, lowest first
-    type(bordered_modes_t), intent(in), optional :: mixed_modes !! the same in mixed form
     real(wp) :: work(modes)
 
     real(wp), allocatable :: sizes(:, :)
@@ -110,10 +108,6 @@ contains
 
     work = 0.0_wp
     if (size(here%unit_force) == 0) return
-    if (present(mixed_modes)) then
-      work = largest_work(here%mixed, factor, mixed_modes, modes)
-      return
-    end if
     n = size(here%loaded%forces%second_order, 1)
     allocate (sizes(n, n), source=0.0_wp)
     do i = 1, case_count

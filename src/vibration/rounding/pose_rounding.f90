@@ -12,7 +12,7 @@ module pose_rounding
   use elastic_linkages, only: scaled_link
   use errors, only: error_t, outcome_t
   use kinds, only: wp
-  use kinematic_coefficients, only: find_kinematic_coefficients, kinematic_coefficients_t
+  use kinematic_coefficients, only: find_kinematic_coefficients
   use ledger, only: ledger_t
   use linkages, only: group_by_newton, group_dyad, linkage_t, path_t
   use load_cases, only: case_count
@@ -20,6 +20,7 @@ module pose_rounding
   use poses, only: pose_t
   use position_assembly, only: assemble_position, assembled_t, new_assembled
   use position_equations, only: new_position_equations, position_equations_t, set_speed
+  use position_results, only: position_work_t
   use positions, only: state_t
   use structures, only: find_structure_pose, structure_t
   implicit none (type, external)
@@ -63,20 +64,18 @@ contains
   !! longer nor a shorter link, the error is at least 1. Where links are more than needed, rigid
   !! ones among them fit with their own lengths alone: their share is that far from dead points. On
   !! a bridge over a change point lengths do not determine the place, but its nodes do.
-  subroutine pose_error(structure, model, state, factor, load_work, found, modes, error, counts, &
-    mixed_modes)
+  subroutine pose_error(structure, state, speed, work, load_work, found, error, counts)
     type(structure_t), intent(in) :: structure     !! whose position it is
-    type(deformation_model_t), intent(in) :: model !! of continuous links at this position
     type(state_t), intent(in) :: state             !! with a pose
-    real(wp), intent(in) :: factor(case_count)     !! of the unit loads: ω2², α2, 1
+    integer, intent(in) :: speed                   !! number
+    type(position_work_t), intent(in) :: work      !! with this position and its loads; in mixed
+                                                   !! form also with the modes
     real(wp), intent(in) :: load_work(:)           !! (modes) of `find_matrix_errors` [1/s²]
     type(bordered_modes_t), intent(in) :: found    !! modes at this position and speed
-    integer, intent(in) :: modes                   !! number, lowest first
-    real(wp), intent(out) :: error(:)              !! (modes) relative, of eigenvalues
+    real(wp), intent(out) :: error(:)              !! (modes) relative, of eigenvalues, lowest first
     type(ledger_t), intent(inout) :: counts        !! of poses found and matrices assembled
-    type(bordered_modes_t), intent(in), optional :: mixed_modes !! the same in mixed form
 
-    real(wp) :: sine, least_sine, spread, energy, multiple, far(modes)
+    real(wp) :: sine, least_sine, spread, energy, multiple
     integer :: bridge, i
 
     multiple = merge(1.0_wp, multiple_of_parts, structure%elastic%in_closed_form)
@@ -92,47 +91,46 @@ contains
     least_sine = near_sine
     ! Loads also contain the accelerations of short links: where lengths differ much no multiple of
     ! ε/sin² is known.
-    if (any(abs(factor) > 0.0_wp)) least_sine = merge(loaded_near_sine, 1.0_wp, spread <= 1.0_wp)
+    if (any(abs(work%factor(:, speed)) > 0.0_wp)) least_sine = merge(loaded_near_sine, 1.0_wp, &
+      spread <= 1.0_wp)
     ! Links that are more than needed share their loads by their stiffnesses: a change of direction
     ! counts many times. So it does in the accelerations of groups that iterations place.
-    if (any(abs(factor) > 0.0_wp)) then
+    if (any(abs(work%factor(:, speed)) > 0.0_wp)) then
       if (size(structure%linkage%redundancies) > 0 .or. any(structure%linkage%groups%kind == &
         group_by_newton)) least_sine = huge(least_sine)
     end if
-    do i = 1, modes
-      energy = elastic_square(model%layout, found%vector(:, i)) + load_work(i)
-      far(i) = far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + relative_error(energy, &
+    do i = 1, size(error)
+      energy = elastic_square(work%here%model%layout, found%vector(:, i)) + load_work(i)
+      error(i) = far_multiple*epsilon(1.0_wp)/sine**2*(1.0_wp + relative_error(energy, &
         found%lambda(i)))
     end do
     if (sine >= least_sine .and. .not. allocated(state%pose%coefficients)) then
-      error = 2.0_wp*multiple*far
+      error = 2.0_wp*multiple*error
     else
-      call find_changes(structure, model, state, sine, factor, found, far, error, counts, &
-        mixed_modes)
+      call find_changes(structure, state, speed, sine, work, found, error, counts)
       error = 2.0_wp*multiple*error
       ! Forces that cancel at every length leave their rounding.
       if (.not. structure%elastic%in_closed_form) error = error + near_multiple*epsilon(1.0_wp)* &
-        relative_error(load_work(:modes), found%lambda(:modes))
+        relative_error(load_work(:size(error)), found%lambda(:size(error)))
     end if
-    error(:min(found%zeros, modes)) = 0.0_wp
+    error(:min(found%zeros, size(error))) = 0.0_wp
   end subroutine pose_error
 
   !> Relative errors of eigenvalues by their changes: ε times the sensitivity to the lengths of the
-  !! links; on a bridge, and towards a limit, `far` and the change with fewer nodes.
-  subroutine find_changes(structure, model, state, sine, factor, found, far, error, counts, &
-    mixed_modes)
+  !! links; on a bridge, and towards a limit, that far from dead points and the change with fewer
+  !! nodes.
+  subroutine find_changes(structure, state, speed, sine, work, found, error, counts)
     type(structure_t), intent(in) :: structure
-    type(deformation_model_t), intent(in) :: model
     type(state_t), intent(in) :: state
+    integer, intent(in) :: speed
     real(wp), intent(in) :: sine              !! of the position, reduced by short links
-    real(wp), intent(in) :: factor(case_count)
+    type(position_work_t), intent(in) :: work
     type(bordered_modes_t), intent(in) :: found
-    real(wp), intent(in) :: far(:)            !! (modes) the error of a linkage far from dead points
-    real(wp), intent(out) :: error(:)         !! (modes)
+    real(wp), intent(inout) :: error(:)       !! (modes) of a linkage far from dead points; becomes
+                                              !! that of this one
     type(ledger_t), intent(inout) :: counts
-    type(bordered_modes_t), intent(in), optional :: mixed_modes
 
-    real(wp) :: own_work(size(far)), change(size(far)), squares(size(far))
+    real(wp), dimension(size(error)) :: far, own_work, change, squares
     real(wp), allocatable :: trial(:, :)
     type(position_equations_t) :: equations
     type(assembled_t) :: here
@@ -140,9 +138,10 @@ contains
     integer :: b, i, side
     logical :: reached
 
-    equations = new_position_equations(model)
-    here = new_assembled(structure, model)
-    call assemble_lengths(structure, model, state%crank, factor, here, equations, reached, counts)
+    far = error
+    equations = new_position_equations(work%here%model)
+    here = new_assembled(structure, work%here%model)
+    call assemble(structure)
     own_work = 0.0_wp
     if (reached) call take_work(own_work)
     if (allocated(state%pose%coefficients)) then
@@ -183,21 +182,29 @@ contains
     subroutine change_to(other)
       type(structure_t), intent(in) :: other
 
-      call assemble_lengths(other, model, state%crank, factor, here, equations, reached, counts)
+      call assemble(other)
       change = 0.0_wp
       if (.not. reached) return
       call take_work(change)
       change = near_multiple*abs(change - own_work)/max(abs(found%lambda(:size(far))), tiny(1.0_wp))
     end subroutine change_to
 
-    !> What the matrices at hand do in the modes.
-    subroutine take_work(work)
-      real(wp), intent(out) :: work(:)
+    !> The matrices of a structure.
+    subroutine assemble(structure)
+      type(structure_t), intent(in) :: structure
 
-      if (present(mixed_modes)) then
-        call find_work(here%mixed, factor, mixed_modes, work)
+      call assemble_lengths(structure, work%here%model, state%crank, work%factor(:, speed), here, &
+        equations, reached, counts)
+    end subroutine assemble
+
+    !> What the matrices at hand do in the modes.
+    subroutine take_work(of_modes)
+      real(wp), intent(out) :: of_modes(:)
+
+      if (allocated(here%mixed)) then
+        call find_work(here%mixed, work%factor(:, speed), work%continuum%found(speed), of_modes)
       else
-        work = residual_work(equations%pencil, found, size(work))
+        of_modes = residual_work(equations%pencil, found, size(of_modes))
       end if
     end subroutine take_work
 
@@ -302,19 +309,19 @@ contains
     logical, intent(out) :: reached            !! whether the linkage closes there
     type(ledger_t), intent(inout) :: counts
 
-    type(pose_t) :: pose
-    type(kinematic_coefficients_t) :: coefficients
+    type(state_t) :: state
     type(error_t), allocatable :: error
     type(outcome_t) :: outcome(1)
 
-    call find_structure_pose(structure, crank, pose, error)
+    allocate (state%pose)
+    call find_structure_pose(structure, crank, state%pose, error)
     counts%kinematic_solutions = counts%kinematic_solutions + 1
     reached = .not. allocated(error)
     if (.not. reached) return
-    coefficients = find_kinematic_coefficients(structure%linkage, pose)
+    state%coefficients = find_kinematic_coefficients(structure%linkage, state%pose)
     here%elastic = structure%elastic
-    call assemble_position(structure, model, pose, coefficients, reshape(factor, [case_count, 1]), &
-      equations, here, outcome, counts)
+    call assemble_position(structure, model, state, reshape(factor, [case_count, 1]), equations, &
+      here, outcome, counts)
     reached = .not. allocated(outcome(1)%error)
     if (reached) call set_speed(equations, factor)
   end subroutine assemble_lengths
