@@ -70,100 +70,90 @@ contains
     type(order_change_t), intent(out) :: change(:, :) !! (parts, modes)
 
     real(wp), parameter :: no_stiffness(0, 0, 0) = 0.0_wp
-    integer :: b, across, along, axial, first
+    integer :: b, across, along
 
     across = 0
     do b = 1, size(links)
       associate (link => links(b))
         along = across + link%next%pieces
-        if (link%next%pieces > 0) then
-          first = layout%first(b)
-          call find_changes_of_link(link%next, vectors, first, chords%across(:2 + link%curves, :, &
-            b), chords%turn(:, b), force(:, b), link%square, force(:, b), link%geometric, &
-            border_mass, layout%free, lambda, change(across + 1:along, :))
-        end if
+        if (link%next%pieces > 0) call find_changes_of_link(link%next, layout%first(b), &
+          chords%across(:2 + link%curves, :, b), force(:, b), link%square, link%geometric, &
+          change(across + 1:along, :))
         across = along + link%axial_next%pieces
         if (link%axial_next%pieces > 0 .and. link%coupled) then
-          first = layout%first(b)
-          call find_changes_of_link(link%axial_next, vectors, first, chords%along(:, :, b), &
-            chords%turn(:, b), force(:0, b), link%square, force(:, b), link%geometric, &
-            border_mass, layout%free, lambda, change(along + 1:across, :))
+          call find_changes_of_link(link%axial_next, layout%first(b), chords%along(:, :, b), &
+            force(:0, b), link%square, link%geometric, change(along + 1:across, :))
         else if (link%axial_next%pieces > 0) then
-          axial = first_axial(layout, links, b)
-          call find_changes_of_link(link%axial_next, vectors, axial, chords%along(:, :, b), &
-            chords%turn(:, b), force(:0, b), link%axial_square, force(:0, b), no_stiffness, &
-            border_mass, layout%free, lambda, change(along + 1:across, :))
+          call find_changes_of_link(link%axial_next, first_axial(layout, links, b), &
+            chords%along(:, :, b), force(:0, b), link%axial_square, no_stiffness, &
+            change(along + 1:across, :))
         end if
       end associate
     end do
-  end subroutine find_order_changes
 
-  !> The changes by the next orders of all pieces of a link in one direction: across, with the
-  !! geometric stiffness of its axial forces, or along, without.
-  pure subroutine find_changes_of_link(next, vectors, first, moved, turned, force, own_mass, &
-      own_force, own_geometric, border_mass, free, lambda, change)
-    type(next_orders_t), intent(in) :: next
-    real(wp), intent(in) :: vectors(:, :)     !! (unknowns, modes), the border's first
-    integer, intent(in) :: first              !! number of the first own mode among them
-    real(wp), intent(in), contiguous :: moved(:, :) !! (functions, border) what the border does to
-                                                    !! it
-    real(wp), intent(in), contiguous :: turned(:)   !! (border) how it turns the link's chord
-    real(wp), intent(in) :: force(:)          !! 1, ξ, ξ², jumps; none: static, or along [N]
-    real(wp), intent(in), contiguous :: own_mass(:) !! (own modes) [s²]
-    real(wp), intent(in) :: own_force(:)      !! on the own modes; none: static, or along [N]
-    real(wp), intent(in) :: own_geometric(:, :, :) !! (1 + curves + own modes, the same, force
-                                                   !! functions) `∫ b v' v'`
-    real(wp), intent(in) :: border_mass(:, :)
-    integer, intent(in) :: free               !! so many of the last of the border deform nothing
-    real(wp), intent(in) :: lambda(:)         !! (modes) [1/s²]
-    type(order_change_t), intent(inout) :: change(:, :) !! (pieces, modes) at first none
+  contains
 
-    real(wp) :: residual(next%number), matrix(next%number, next%number), ends(size(moved, 1)), &
-      slopes(rigid + size(moved, 1) - 2 + size(own_mass), merge(next%number, 0, size(force) > 0)), &
-      square(next%number, next%number), turn, slope_reach, ends_norm
-    real(wp), allocatable :: stiffness(:)
-    integer :: e, i, k, low, high, own_row
+    !> The changes by the next orders of all pieces of a link in one direction: across, with the
+    !! geometric stiffness of its axial forces, or along, without.
+    pure subroutine find_changes_of_link(next, first, moved, acting, own_mass, own_geometric, found)
+      type(next_orders_t), intent(in) :: next
+      integer, intent(in) :: first              !! number of the first own mode
+      real(wp), intent(in), contiguous :: moved(:, :) !! (functions, border) what the border does to
+                                                      !! it
+      real(wp), intent(in) :: acting(:)         !! 1, ξ, ξ², jumps; none: static, or along [N]
+      real(wp), intent(in), contiguous :: own_mass(:) !! (own modes) [s²]
+      real(wp), intent(in) :: own_geometric(:, :, :) !! (1 + curves + own modes, the same, force
+                                                     !! functions) `∫ b v' v'`
+      type(order_change_t), intent(inout) :: found(:, :) !! (pieces, modes) at first none
 
-    own_row = rigid + size(moved, 1) - 2
-    ends_norm = norm2(moved)
-    square = 0.0_wp
-    slope_reach = 0.0_wp
-    do e = 1, next%pieces
-      low = (e - 1)*next%number + 1
-      high = e*next%number
-      if (size(force) > 0) call weigh(next, e, force, low, high, slopes, square, slope_reach)
-      do i = 1, size(lambda)
-        associate (border => vectors(:size(turned), i), own => vectors(first:first + &
-          size(own_mass) - 1, i))
-          do k = 1, size(moved, 1)
-            ends(k) = dot_product(moved(k, :), border)
-          end do
-          do k = 1, next%number
-            residual(k) = -lambda(i)*(dot_product(ends, next%participation(:, low &
-              + k - 1)) + dot_product(own, next%mass(:, low + k - 1)))
-          end do
-          if (size(force) > 0) then
-            turn = dot_product(turned, border)
-            do k = 1, next%number
-              residual(k) = residual(k) + turn*slopes(rigid, k) + &
-                dot_product(ends(3:), slopes(rigid + 1:own_row, k)) + &
-                dot_product(own, slopes(own_row + 1:, k))
+      real(wp) :: residual(next%number), matrix(next%number, next%number), ends(size(moved, 1)), &
+        slopes(rigid + size(moved, 1) - 2 + size(own_mass), merge(next%number, 0, &
+        size(acting) > 0)), square(next%number, next%number), turn, slope_reach, ends_norm
+      real(wp), allocatable :: stiffness(:)
+      integer :: e, i, k, low, high, own_row
+
+      own_row = rigid + size(moved, 1) - 2
+      ends_norm = norm2(moved)
+      square = 0.0_wp
+      slope_reach = 0.0_wp
+      do e = 1, next%pieces
+        low = (e - 1)*next%number + 1
+        high = e*next%number
+        if (size(acting) > 0) call weigh(next, e, acting, low, high, slopes, square, slope_reach)
+        do i = 1, size(lambda)
+          associate (border => vectors(:size(moved, 2), i), own => vectors(first:first + &
+            size(own_mass) - 1, i))
+            do k = 1, size(moved, 1)
+              ends(k) = dot_product(moved(k, :), border)
             end do
-          end if
-        end associate
-        if (is_nothing(residual, lambda(i))) cycle
-        matrix = square - lambda(i)*next%mass_square(:, :, e)
-        call eliminate(matrix, residual, least_pivot, change(e, i))
-        if (is_silent(next, e, lambda(i), slope_reach, ends_norm)) cycle
-        if (.not. allocated(stiffness)) stiffness = own_stiffness(own_geometric, &
-          own_force, size(own_mass))
-        call add_echo(next%mass(:, low:high), slopes, own_mass, stiffness, lambda(i), residual, &
-          change(e, i)%echo)
-        call add_border_echo(moved, next%participation(:, low:high), border_mass, free, lambda(i), &
-          residual, change(e, i)%echo)
+            do k = 1, next%number
+              residual(k) = -lambda(i)*(dot_product(ends, next%participation(:, low &
+                + k - 1)) + dot_product(own, next%mass(:, low + k - 1)))
+            end do
+            if (size(acting) > 0) then
+              turn = dot_product(chords%turn(:, b), border)
+              do k = 1, next%number
+                residual(k) = residual(k) + turn*slopes(rigid, k) + &
+                  dot_product(ends(3:), slopes(rigid + 1:own_row, k)) + &
+                  dot_product(own, slopes(own_row + 1:, k))
+              end do
+            end if
+          end associate
+          if (is_nothing(residual, lambda(i))) cycle
+          matrix = square - lambda(i)*next%mass_square(:, :, e)
+          call eliminate(matrix, residual, least_pivot, found(e, i))
+          if (is_silent(next, e, lambda(i), slope_reach, ends_norm)) cycle
+          if (.not. allocated(stiffness)) stiffness = own_stiffness(own_geometric, &
+            force(:, b), size(own_mass))
+          call add_echo(next%mass(:, low:high), slopes, own_mass, stiffness, lambda(i), residual, &
+            found(e, i)%echo)
+          call add_border_echo(moved, next%participation(:, low:high), border_mass, layout%free, &
+            lambda(i), residual, found(e, i)%echo)
+        end do
       end do
-    end do
-  end subroutine find_changes_of_link
+    end subroutine find_changes_of_link
+
+  end subroutine find_order_changes
 
   !> The geometric stiffness of a piece's unknowns at the present axial forces, with the own modes
   !! and with each other.
