@@ -33,10 +33,24 @@ module path_grids
   !> Rounding of a place in the range.
   real(wp), parameter :: little = 1.0e-9_wp
 
+  !> Room for kinds of terms.
+  integer, parameter :: most_kinds = 32
+
   !> Terms of one kind: those of an array of the grid, or of a load case of it.
   type :: term_kind_t
     real(wp), pointer, contiguous :: values(:, :) => null() !! (samples, terms)
   end type term_kind_t
+
+  !> Every kind of terms of a grid.
+  type :: term_list_t
+    type(term_kind_t) :: kinds(most_kinds) !! the first `number`
+    integer :: number = 0
+  end type term_list_t
+
+  !> Lists terms, and gives them room for other numbers of samples.
+  interface add
+    procedure :: add_functions, add_vectors, add_matrices
+  end interface add
 
 contains
 
@@ -76,16 +90,16 @@ contains
     type(turn_grid_t), intent(inout) :: grid         !! by `new_path_grid`
     type(error_t), allocatable, intent(out) :: error !! why the grid has no terms
 
-    type(term_kind_t), allocatable :: kinds(:)
+    type(term_list_t) :: list
     integer :: k
 
     if (allocated(grid%series)) then
-      call list_terms(grid, kinds)
+      call list_terms(grid, list)
       do k = 1, size(crank)
         if (grid%range%is_turn) then
-          call take_terms(value_at(grid%series, modulo(crank(k), 360.0_wp)*degree), k, kinds)
+          call take_terms(value_at(grid%series, modulo(crank(k), 360.0_wp)*degree), k, list)
         else if (abs(place_in(grid%range, crank(k))) <= 1.0_wp + little) then
-          call take_terms(chebyshev_value(grid%series, place_in(grid%range, crank(k))), k, kinds)
+          call take_terms(chebyshev_value(grid%series, place_in(grid%range, crank(k))), k, list)
         else
           call set_error(error, error_of_numerics, "the law of the first drive swings faster "// &
             "than the instants of TIME tell: expected more of them")
@@ -136,6 +150,7 @@ contains
     type(covered_range_t), intent(in), optional :: range
 
     type(fourier_plan_t) :: plan
+    type(term_list_t) :: list
     real(wp), allocatable :: terms(:, :), coefficients(:, :)
     real(wp) :: tail, last
     integer :: i, n
@@ -171,7 +186,8 @@ contains
     end if
     grid%tail = tail
     call move_alloc(coefficients, grid%series)
-    call resize(grid, samples)
+    grid%samples = samples
+    call list_terms(grid, list)
   end subroutine find_series
 
   !> d/dθ2 of the deformations.
@@ -186,46 +202,93 @@ contains
     end do
   end subroutine add_slopes
 
-  !> All terms of a grid, kind after kind.
-  pure subroutine list_terms(grid, kinds)
+  !> All terms of a grid, kind after kind, with room for its samples.
+  pure subroutine list_terms(grid, list)
     type(turn_grid_t), intent(inout), target :: grid
-    type(term_kind_t), allocatable, intent(out) :: kinds(:) !! into the grid
+    type(term_list_t), intent(out) :: list !! into the grid
 
-    integer :: c, n, s
-
-    s = grid%samples
-    allocate (kinds(14 + 3*grid%cases))
-    kinds(1)%values(1:s, 1:size(grid%chord)/s) => grid%chord
-    kinds(2)%values(1:s, 1:size(grid%turn)/s) => grid%turn
-    kinds(3)%values(1:s, 1:size(grid%pin)/s) => grid%pin
-    kinds(4)%values(1:s, 1:size(grid%chord_slope)/s) => grid%chord_slope
-    kinds(5)%values(1:s, 1:size(grid%pin_slope)/s) => grid%pin_slope
-    kinds(6)%values(1:s, 1:size(grid%place)/s) => grid%place
-    kinds(7)%values(1:s, 1:size(grid%direction)/s) => grid%direction
-    kinds(8)%values => grid%rate
-    kinds(9)%values => grid%rate_slope
-    n = 9
-    do c = 1, grid%cases
-      kinds(n + 1)%values(1:s, 1:size(grid%force(1, :, :, c))) => grid%force(:, :, :, c)
-      kinds(n + 2)%values => grid%load(:, :, c)
-      n = n + 2
-      if (.not. allocated(grid%second_order)) cycle
-      n = n + 1
-      kinds(n)%values(1:s, 1:grid%border**2) => grid%second_order(:, :, :, c)
-    end do
-    if (allocated(grid%weighted)) then
-      kinds(n + 1)%values(1:s, 1:size(grid%weighted)/s) => grid%weighted
-      kinds(n + 2)%values(1:s, 1:size(grid%weighted)/s) => grid%weighted_slope
-      n = n + 2
-    end if
-    if (allocated(grid%pieces)) then
-      kinds(n + 1)%values => grid%ratio
-      kinds(n + 2)%values(1:s, 1:size(grid%drift)/s) => grid%drift
-      kinds(n + 3)%values(1:s, 1:size(grid%drift)/s) => grid%drift_slope
-      n = n + 3
-    end if
-    kinds = kinds(:n)
+    associate (n => grid%samples)
+      call add(grid%chord, n, list)
+      call add(grid%turn, n, list)
+      call add(grid%pin, n, list)
+      call add(grid%chord_slope, n, list)
+      call add(grid%pin_slope, n, list)
+      call add(grid%place, n, list)
+      call add(grid%direction, n, list)
+      call add(grid%rate, n, list)
+      call add(grid%rate_slope, n, list)
+      call add(grid%force, n, list, grid%cases)
+      call add(grid%load, n, list, grid%cases)
+      call add(grid%second_order, n, list, grid%cases)
+      call add(grid%weighted, n, list)
+      call add(grid%weighted_slope, n, list)
+      call add(grid%ratio, n, list)
+      call add(grid%drift, n, list)
+      call add(grid%drift_slope, n, list)
+    end associate
   end subroutine list_terms
+
+  !> Adds the terms of an array, if there are any.
+  pure subroutine add_functions(values, samples, list)
+    real(wp), allocatable, intent(inout), target :: values(:, :) !! (samples, functions)
+    integer, intent(in) :: samples         !! that it gets room for
+    type(term_list_t), intent(inout) :: list
+
+    real(wp), pointer, contiguous :: functions(:, :)
+
+    if (.not. allocated(values)) return
+    if (size(values, 1) /= samples) values = values(spread(1, 1, samples), :)
+    functions => values
+    call add_kinds(functions, list)
+  end subroutine add_functions
+
+  !> The same.
+  pure subroutine add_vectors(values, samples, list, cases)
+    real(wp), allocatable, intent(inout), target :: values(:, :, :)
+    integer, intent(in) :: samples
+    type(term_list_t), intent(inout) :: list
+    integer, intent(in), optional :: cases !! over which the last subscript runs, each a kind of
+                                           !! its own; absent: one
+
+    real(wp), pointer, contiguous :: functions(:, :)
+
+    if (.not. allocated(values)) return
+    if (size(values, 1) /= samples) values = values(spread(1, 1, samples), :, :)
+    functions(1:samples, 1:size(values, 2)*size(values, 3)) => values
+    call add_kinds(functions, list, cases)
+  end subroutine add_vectors
+
+  !> The same.
+  pure subroutine add_matrices(values, samples, list, cases)
+    real(wp), allocatable, intent(inout), target :: values(:, :, :, :)
+    integer, intent(in) :: samples
+    type(term_list_t), intent(inout) :: list
+    integer, intent(in), optional :: cases
+
+    real(wp), pointer, contiguous :: functions(:, :)
+
+    if (.not. allocated(values)) return
+    if (size(values, 1) /= samples) values = values(spread(1, 1, samples), :, :, :)
+    functions(1:samples, 1:size(values, 2)*size(values, 3)*size(values, 4)) => values
+    call add_kinds(functions, list, cases)
+  end subroutine add_matrices
+
+  !> Adds each of the kinds of which some functions are.
+  pure subroutine add_kinds(functions, list, number)
+    real(wp), intent(inout), pointer, contiguous :: functions(:, :) !! (samples, functions)
+    type(term_list_t), intent(inout) :: list
+    integer, intent(in), optional :: number !! absent: 1
+
+    integer :: i, kinds, n
+
+    kinds = 1
+    if (present(number)) kinds = number
+    n = size(functions, 2)/kinds
+    do i = 1, kinds
+      list%number = list%number + 1
+      list%kinds(list%number)%values => functions(:, (i - 1)*n + 1:i*n)
+    end do
+  end subroutine add_kinds
 
   !> What kinds of terms are small beside, if not their own largest, in the order of `list_terms`.
   !! Where all of a kind may be zero but for rounding (slopes of what is constant, as of an open
@@ -235,104 +298,78 @@ contains
     type(turn_grid_t), intent(in) :: grid
     real(wp), allocatable :: size_of(:)
 
-    real(wp) :: chords, force, length, pins
+    real(wp) :: chords, force(grid%cases), length, pins
     integer :: c
 
     length = maxval(grid%model%links%length)
     pins = maxval(abs(grid%pin))
     chords = max(maxval(abs(grid%chord)), pins)
-    size_of = [chords, pins/length, pins, chords, pins, 0.0_wp, 1.0_wp, 1.0_wp, 1.0_wp]
     do c = 1, grid%cases
       ! The largest force: along the links, or what loads do, per displacement.
-      force = max(maxval(abs(grid%force(:, :, :, c))), maxval(abs(grid%load(:, :, c)))/max(pins, &
-        tiny(1.0_wp)))
-      size_of = [size_of, force, force*pins]
-      if (allocated(grid%second_order)) size_of = [size_of, force*maxval(abs(grid%turn))**2*length]
+      force(c) = max(maxval(abs(grid%force(:, :, :, c))), maxval(abs(grid%load(:, :, c)))/ &
+        max(pins, tiny(1.0_wp)))
     end do
+    size_of = [chords, pins/length, pins, chords, pins, 0.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, force, &
+      force*pins]
+    if (allocated(grid%second_order)) size_of = [size_of, &
+      force*maxval(abs(grid%turn))**2*length]
     if (allocated(grid%weighted)) size_of = [size_of, 0.0_wp, maxval(abs(grid%weighted))]
     if (allocated(grid%pieces)) size_of = [size_of, 1.0_wp, 1.0_wp, 1.0_wp]
   end function beside
 
   !> All terms in one table.
   subroutine join_terms(grid, terms)
-    type(turn_grid_t), intent(inout) :: grid
+    type(turn_grid_t), intent(inout), target :: grid
     real(wp), allocatable, intent(out) :: terms(:, :) !! (samples, terms)
 
-    type(term_kind_t), allocatable :: kinds(:)
-    integer :: at, i
+    type(term_list_t) :: list
+    integer :: at, i, n
 
-    call list_terms(grid, kinds)
-    allocate (terms(grid%samples, sum([(size(kinds(i)%values, 2), i=1, size(kinds))])))
+    call list_terms(grid, list)
+    allocate (terms(grid%samples, sum([(size(list%kinds(i)%values, 2), i=1, list%number)])))
     at = 0
-    do i = 1, size(kinds)
-      terms(:, at + 1:at + size(kinds(i)%values, 2)) = kinds(i)%values
-      at = at + size(kinds(i)%values, 2)
+    do i = 1, list%number
+      n = size(list%kinds(i)%values, 2)
+      terms(:, at + 1:at + n) = list%kinds(i)%values
+      at = at + n
     end do
   end subroutine join_terms
 
   !> The highest eighth of the coefficients, beside the size of their kind.
   function tail_of(grid, coefficients) result(tail)
-    type(turn_grid_t), intent(inout) :: grid
+    type(turn_grid_t), intent(inout), target :: grid
     real(wp), intent(in) :: coefficients(:, :) !! (samples, terms) of `join_terms`
     real(wp) :: tail
 
-    type(term_kind_t), allocatable :: kinds(:)
+    type(term_list_t) :: list
     real(wp), allocatable :: size_of(:)
     integer :: at, i, m, n
 
-    call list_terms(grid, kinds)
+    call list_terms(grid, list)
     size_of = beside(grid)
     n = size(coefficients, 1)
     tail = 0.0_wp
     at = 0
-    do i = 1, size(kinds)
-      m = size(kinds(i)%values, 2)
+    do i = 1, list%number
+      m = size(list%kinds(i)%values, 2)
       if (m > 0) tail = max(tail, maxval(abs(coefficients(n - n/8:, at + 1:at + m)))/ &
-        max(size_of(i), maxval(abs(kinds(i)%values)), tiny(1.0_wp)))
+        max(size_of(i), maxval(abs(list%kinds(i)%values)), tiny(1.0_wp)))
       at = at + m
     end do
   end function tail_of
 
-  !> Gives the terms room for another number of samples.
-  pure subroutine resize(grid, samples)
-    type(turn_grid_t), intent(inout) :: grid
-    integer, intent(in) :: samples
-
-    grid%samples = samples
-    grid%chord = grid%chord(spread(1, 1, samples), :, :, :)
-    grid%turn = grid%turn(spread(1, 1, samples), :, :)
-    grid%pin = grid%pin(spread(1, 1, samples), :, :, :)
-    grid%chord_slope = grid%chord_slope(spread(1, 1, samples), :, :, :)
-    grid%pin_slope = grid%pin_slope(spread(1, 1, samples), :, :, :)
-    grid%place = grid%place(spread(1, 1, samples), :, :)
-    grid%direction = grid%direction(spread(1, 1, samples), :, :)
-    grid%rate = grid%rate(spread(1, 1, samples), :)
-    grid%rate_slope = grid%rate_slope(spread(1, 1, samples), :)
-    grid%force = grid%force(spread(1, 1, samples), :, :, :)
-    grid%load = grid%load(spread(1, 1, samples), :, :)
-    if (allocated(grid%second_order)) grid%second_order = grid%second_order(spread(1, 1, &
-      samples), :, :, :)
-    if (allocated(grid%weighted)) grid%weighted = grid%weighted(spread(1, 1, samples), :, :)
-    if (allocated(grid%weighted_slope)) grid%weighted_slope = grid%weighted_slope(spread(1, 1, &
-      samples), :, :)
-    if (.not. allocated(grid%pieces)) return
-    grid%ratio = grid%ratio(spread(1, 1, samples), :)
-    grid%drift = grid%drift(spread(1, 1, samples), :, :)
-    grid%drift_slope = grid%drift_slope(spread(1, 1, samples), :, :)
-  end subroutine resize
-
   !> Takes terms at a crank angle.
-  pure subroutine take_terms(terms, k, kinds)
+  pure subroutine take_terms(terms, k, list)
     real(wp), intent(in) :: terms(:)          !! of a row of `join_terms`
     integer, intent(in) :: k                  !! number of the crank angle
-    type(term_kind_t), intent(inout) :: kinds(:) !! of the grid
+    type(term_list_t), intent(inout) :: list  !! of the grid
 
     integer :: at, i, n
 
     at = 0
-    do i = 1, size(kinds)
-      n = size(kinds(i)%values, 2)
-      kinds(i)%values(k, :) = terms(at + 1:at + n)
+    do i = 1, list%number
+      n = size(list%kinds(i)%values, 2)
+      list%kinds(i)%values(k, :) = terms(at + 1:at + n)
       at = at + n
     end do
   end subroutine take_terms
