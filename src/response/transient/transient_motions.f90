@@ -7,20 +7,20 @@ module transient_motions
   use crank_laws, only: constant_from, crank_breaks, crank_law_t, crank_motion
   use deformation_model, only: deformation_model_t
   use errors, only: error_of_numerics, error_t, set_error
-  use gauss_collocation, only: collocation_t, new_radau_collocation
+  use gauss_collocation, only: new_radau_collocation
   use interruption, only: was_interrupted
   use kinds, only: long, wp
   use motion_matrices, only: find_motion_matrices, motion_matrices_t
   use path_grids, only: new_path_grid, place_grid
   use strain_dampings, only: damping_t
   use structures, only: structure_t
-  use transient_steps, only: advance, elastic_state_t, kick, make_steps, take_steps, &
+  use transient_steps, only: advance, elastic_state_t, kick, make_steps, stepping_t, take_steps, &
     transient_step_t
   use turn_grids, only: turn_grid_t
   implicit none (type, external)
   private
 
-  public :: transient_motion_t, solve_motion, stages
+  public :: transient_motion_t, new_stepping, solve_motion, stages
 
   !> Stages of a step by Radau's method: it is of order 9. Vibrations too fast for the steps, and
   !! deformations that damping stops at once, fade instead of going on for ever.
@@ -40,43 +40,54 @@ module transient_motions
 
 contains
 
-  !> The state at every instant.
+  !> Steps of equal number between instants.
   !!
-  !! Errors: those of `new_path_grid` and `place_grid`; a step has no solution; the motion grows
-  !! beyond all numbers.
-  subroutine solve_motion(structure, model, law, damping, axial, time, instants, substeps, start, &
-    motion, error)
+  !! Errors: those of `new_path_grid`.
+  subroutine new_stepping(structure, model, law, damping, axial, substeps, stepping, error)
     class(structure_t), intent(in) :: structure    !! linkage and beams
     type(deformation_model_t), intent(in) :: model !! of its bodies
     type(crank_law_t), intent(in) :: law           !! of the crank
     type(damping_t), intent(in) :: damping         !! of `damping_of`
     logical, intent(in) :: axial                   !! with the stiffness of axial forces
+    integer, intent(in) :: substeps                !! between instants
+    type(stepping_t), intent(out) :: stepping
+    type(error_t), allocatable, intent(out) :: error
+
+    stepping%law = law
+    stepping%damping = damping
+    stepping%axial = axial
+    stepping%rule = new_radau_collocation(stages)
+    call new_path_grid(structure, model, stages*substeps, stepping%grid, error, law%range)
+  end subroutine new_stepping
+
+  !> The state at every instant.
+  !!
+  !! Errors: those of `place_grid`; a step has no solution; the motion grows beyond all numbers.
+  subroutine solve_motion(structure, time, instants, start, stepping, motion, error)
+    class(structure_t), intent(in) :: structure    !! linkage and beams
     real(wp), intent(in) :: time(:)                !! (instants) [s]; of a constant speed even,
                                                    !! but the last
     integer, intent(in) :: instants                !! of a turn at constant speed
-    integer, intent(in) :: substeps                !! between instants
     real(wp), intent(in) :: start(:)               !! (2 unknowns) y, P at the first instant
+    type(stepping_t), intent(inout) :: stepping    !! by `new_stepping`
     type(transient_motion_t), intent(out) :: motion
     type(error_t), allocatable, intent(out) :: error
 
-    type(collocation_t) :: rule
-    type(turn_grid_t) :: grid, here
-    type(motion_matrices_t) :: matrices, matrices_here
+    type(turn_grid_t) :: here
+    type(motion_matrices_t) :: matrices_here
     type(transient_step_t), allocatable :: steps(:)
     type(transient_step_t) :: kept(instants)
     type(elastic_state_t) :: state
     real(wp), allocatable :: places(:)
     real(wp) :: speed !! before the next piece of the motion of the crank [rad/s]
-    integer :: first, i, k, slot
+    integer :: first, i, k, slot, substeps
 
-    rule = new_radau_collocation(stages)
-    call new_path_grid(structure, model, stages*substeps, grid, error, law%range)
-    if (allocated(error)) return
+    substeps = stepping%grid%samples/stages
     allocate (motion%state(size(start), size(time)))
     state%value = start
     state%carry = 0.0_wp*start
     motion%state(:, 1) = start
-    first = findloc(time >= constant_from(law), .true., dim=1)
+    first = findloc(time >= constant_from(stepping%law), .true., dim=1)
     if (first == 0) first = size(time)
     speed = huge(speed)
     do k = 1, size(time) - 1
@@ -85,8 +96,8 @@ contains
       ! What does not return is not worth its matrix.
       if (k >= first .and. is_whole(k) .and. .not. allocated(kept(slot)%push) .and. &
         k + instants < size(time)) then
-        call make_steps(structure, law, damping, axial, rule, time(k), (time(k + 1) - &
-          time(k))/substeps, grid, matrices, steps, error)
+        call make_steps(structure, time(k), (time(k + 1) - time(k))/substeps, stepping, steps, &
+          error)
         if (allocated(error)) return
         motion%made = motion%made + substeps
         call join(steps, kept(slot))
@@ -95,7 +106,7 @@ contains
         call advance(kept(slot), state)
         motion%taken = motion%taken + 1
       else
-        places = [time(k), crank_breaks(law, time(k), time(k + 1)), time(k + 1)]
+        places = [time(k), crank_breaks(stepping%law, time(k), time(k + 1)), time(k + 1)]
         do i = 1, size(places) - 1
           call go(places(i), places(i + 1))
           if (allocated(error)) return
@@ -122,15 +133,14 @@ contains
 
       real(wp) :: now(0:2)
 
-      if (allocated(law%program)) then
-        now = crank_motion(law, from, 0.5_wp*(from + to))
+      if (allocated(stepping%law%program)) then
+        now = crank_motion(stepping%law, from, 0.5_wp*(from + to))
         if (k > 1 .or. i > 1) call jump(now(0), now(1) - speed)
         if (allocated(error)) return
-        now = crank_motion(law, to, 0.5_wp*(from + to))
+        now = crank_motion(stepping%law, to, 0.5_wp*(from + to))
         speed = now(1)
       end if
-      call take_steps(structure, law, damping, axial, rule, from, (to - from)/substeps, grid, &
-        matrices, state, error)
+      call take_steps(structure, from, (to - from)/substeps, stepping, state, error)
       motion%made = motion%made + substeps
       motion%taken = motion%taken + substeps
     end subroutine go
@@ -141,12 +151,12 @@ contains
       real(wp), intent(in) :: change !! [rad/s]
 
       if (abs(change) <= rounding*abs(speed) .or. abs(change) <= tiny(change)) return
-      if (.not. allocated(here%first)) call new_path_grid(structure, model, 1, here, &
-        error, law%range)
+      if (.not. allocated(here%first)) call new_path_grid(structure, stepping%grid%model, 1, &
+        here, error, stepping%law%range)
       if (.not. allocated(error)) call place_grid(structure, [crank], here, error)
       if (allocated(error)) return
       call find_motion_matrices(here, matrices_here)
-      call kick(matrices_here, 1, change, axial, state)
+      call kick(matrices_here, 1, change, stepping%axial, state)
     end subroutine jump
 
   end subroutine solve_motion

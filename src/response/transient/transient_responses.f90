@@ -29,7 +29,8 @@ module transient_responses
   use strain_dampings, only: damping_t
   use text, only: to_string
   use transient_quantities, only: of_gauge, of_point, quantities_of
-  use transient_motions, only: solve_motion, stages, transient_motion_t
+  use transient_motions, only: new_stepping, solve_motion, stages, transient_motion_t
+  use transient_steps, only: stepping_t
   use transient_starts, only: find_start
   use transient_types, only: speed_transient_t, transient_request_t, transient_t
   use turn_grids, only: turn_grid_t
@@ -320,6 +321,7 @@ contains
     real(wp), allocatable, intent(out) :: missed(:)    !! (quantities) vibrations not followed
 
     type(turn_grid_t) :: grid
+    type(stepping_t) :: stepping
     type(transient_motion_t) :: motion
     type(excited_vibration_t), allocatable :: vibration(:)
     type(damping_t) :: damping
@@ -335,14 +337,15 @@ contains
       vibration, found%error)
     if (allocated(found%error)) return
     if (allocated(before)) call raise_steps
-    call solve_motion(structure, model, law, damping, request%response%terms%axial, &
-      found%time, request%instants, found%steps, start, motion, found%error)
+    call new_stepping(structure, model, law, damping, request%response%terms%axial, found%steps, &
+      stepping, found%error)
+    if (.not. allocated(found%error)) call solve_motion(structure, found%time, request%instants, &
+      start, stepping, motion, found%error)
     found%made = found%made + motion%made
     found%taken = found%taken + motion%taken
     if (allocated(found%error) .or. was_interrupted()) return
     found%least_error = rounding + of_tail*grid%tail + safety*lack
-    call find_series(structure, request, law%range, found%crank, model, motion, series, &
-      found%deflection, found%error)
+    call find_series(structure, request, law, model, motion, found, series)
     if (allocated(found%error)) return
     missed = missed_by_steps(vibration, found%time, found%steps, stages, size(series, 2))
 
@@ -374,38 +377,35 @@ contains
   end subroutine solve_once
 
   !> All quantities at all instants, some instants at a time.
-  subroutine find_series(structure, request, range, crank, model, motion, series, deflection, &
-    error)
+  subroutine find_series(structure, request, law, model, motion, found, series)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
-    type(covered_range_t), intent(in) :: range
-    real(wp), intent(in) :: crank(:) !! (instants) [deg]
+    type(crank_law_t), intent(in) :: law
     type(deformation_model_t), intent(in) :: model
     type(transient_motion_t), intent(in) :: motion
+    type(speed_transient_t), intent(inout) :: found    !! with crank angles; gets deflections
     real(wp), allocatable, intent(out) :: series(:, :) !! (instants, quantities)
-    real(wp), allocatable, intent(out) :: deflection(:) !! (bodies) largest [m]
-    type(error_t), allocatable, intent(out) :: error
 
     type(turn_grid_t) :: grid
     real(wp), allocatable :: y(:, :), here(:, :)
     integer, allocatable :: rows(:)
     integer :: at, block, i, n
 
-    block = min(at_a_time, size(crank))
-    call new_path_grid(structure, model, block, grid, error, range)
-    if (allocated(error)) return
-    allocate (deflection(size(grid%integrals)), source=0.0_wp)
-    do at = 1, size(crank), block
+    n = size(found%crank)
+    block = min(at_a_time, n)
+    call new_path_grid(structure, model, block, grid, found%error, law%range)
+    if (allocated(found%error)) return
+    found%deflection = spread(0.0_wp, 1, size(grid%integrals))
+    do at = 1, n, block
       ! The last are repeated to fill the block.
-      rows = [(min(i, size(crank)), i=at, at + block - 1)]
-      n = min(block, size(crank) + 1 - at)
-      call place_grid(structure, crank(rows), grid, error)
-      if (allocated(error)) return
+      rows = [(min(i, n), i=at, at + block - 1)]
+      call place_grid(structure, found%crank(rows), grid, found%error)
+      if (allocated(found%error)) return
       y = transpose(motion%state(:grid%unknowns, rows))
-      deflection = max(deflection, sampled_deflections(grid, y))
+      found%deflection = max(found%deflection, sampled_deflections(grid, y))
       here = quantities_of(grid, request%response, y)
-      if (at == 1) allocate (series(size(crank), size(here, 2)))
-      series(at:at + n - 1, :) = here(:n, :)
+      if (at == 1) allocate (series(n, size(here, 2)))
+      series(at:min(at + block - 1, n), :) = here(:min(block, n + 1 - at), :)
     end do
   end subroutine find_series
 

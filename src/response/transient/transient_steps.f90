@@ -16,8 +16,18 @@ module transient_steps
   implicit none (type, external)
   private
 
-  public :: transient_step_t, make_steps, take_steps, elastic_state_t, add_damping, advance, kick, &
-    momenta_of, rates_of
+  public :: stepping_t, transient_step_t, make_steps, take_steps, elastic_state_t, add_damping, &
+    advance, kick, momenta_of, rates_of
+
+  !> What is solved in steps, and how: so many equal ones at a time as the grid has stages for.
+  type :: stepping_t
+    type(crank_law_t) :: law            !! of the crank; smooth over these steps
+    type(damping_t) :: damping          !! of `damping_of`
+    logical :: axial = .true.           !! with the stiffness of axial forces
+    type(collocation_t) :: rule         !! of a step
+    type(turn_grid_t) :: grid           !! by `new_path_grid`, for all stages of all steps
+    type(motion_matrices_t) :: matrices !! at the stages
+  end type stepping_t
 
   !> What a step does to the state (y, P): its change is `change · state + push`.
   type :: transient_step_t
@@ -46,30 +56,27 @@ contains
   !! matrices there.
   !!
   !! Errors: the crank cannot reach an angle, or meets a dead point.
-  subroutine place_stages(structure, law, rule, start, length, grid, matrices, speed, &
-    acceleration, error)
+  subroutine place_stages(structure, start, length, stepping, speed, acceleration, error)
     class(structure_t), intent(in) :: structure
-    type(crank_law_t), intent(in) :: law
-    type(collocation_t), intent(in) :: rule
     real(wp), intent(in) :: start, length
-    type(turn_grid_t), intent(inout) :: grid
-    type(motion_matrices_t), intent(inout) :: matrices
+    type(stepping_t), intent(inout) :: stepping
     real(wp), intent(out) :: speed(:), acceleration(:) !! (samples of the grid)
     type(error_t), allocatable, intent(out) :: error
 
-    real(wp) :: motion(0:2, grid%samples)
-    integer :: i, k, s
+    real(wp) :: motion(0:2, stepping%grid%samples)
+    integer :: i, k
 
-    s = size(rule%node)
-    do k = 1, grid%samples/s
-      do i = 1, s
-        motion(:, (k - 1)*s + i) = crank_motion(law, start + length*(k - 1 + rule%node(i)), &
-          start + 0.5_wp*length)
+    associate (node => stepping%rule%node)
+      do k = 1, stepping%grid%samples/size(node)
+        do i = 1, size(node)
+          motion(:, (k - 1)*size(node) + i) = crank_motion(stepping%law, start + &
+            length*(k - 1 + node(i)), start + 0.5_wp*length)
+        end do
       end do
-    end do
-    call place_grid(structure, motion(0, :), grid, error)
+    end associate
+    call place_grid(structure, motion(0, :), stepping%grid, error)
     if (allocated(error)) return
-    call find_motion_matrices(grid, matrices)
+    call find_motion_matrices(stepping%grid, stepping%matrices)
     speed = motion(1, :)
     acceleration = motion(2, :)
   end subroutine place_stages
@@ -77,35 +84,27 @@ contains
   !> Equal steps one after another, for any state.
   !!
   !! Errors: the crank cannot reach an angle, or meets a dead point; a step has no solution.
-  subroutine make_steps(structure, law, damping, axial, rule, start, length, grid, matrices, &
-    steps, error)
+  subroutine make_steps(structure, start, length, stepping, steps, error)
     class(structure_t), intent(in) :: structure !! of the grid
-    type(crank_law_t), intent(in) :: law     !! of the crank; smooth over all steps
-    type(damping_t), intent(in) :: damping   !! of `damping_of`
-    logical, intent(in) :: axial             !! with the stiffness of axial forces
-    type(collocation_t), intent(in) :: rule  !! of a step
     real(wp), intent(in) :: start            !! of the first step [s]
     real(wp), intent(in) :: length           !! of each step [s]
-    type(turn_grid_t), intent(inout) :: grid !! by `new_path_grid`, for all stages of all steps
-    type(motion_matrices_t), intent(inout) :: matrices !! room for those at the stages
+    type(stepping_t), intent(inout) :: stepping
     type(transient_step_t), allocatable, intent(out) :: steps(:) !! as many as the grid is for
     type(error_t), allocatable, intent(out) :: error
 
     type(stage_terms_t) :: terms
-    real(wp), dimension(grid%samples) :: speed, acceleration
+    real(wp), dimension(stepping%grid%samples) :: speed, acceleration
     integer :: k, s
 
-    s = size(rule%node)
-    allocate (steps(grid%samples/s))
-    call place_stages(structure, law, rule, start, length, grid, matrices, speed, acceleration, &
-      error)
+    s = size(stepping%rule%node)
+    allocate (steps(stepping%grid%samples/s))
+    call place_stages(structure, start, length, stepping, speed, acceleration, error)
     if (allocated(error)) return
     do k = 1, size(steps)
       associate (first => (k - 1)*s + 1)
-        call find_terms(matrices, damping, axial, rule, first, speed(first:), &
-          acceleration(first:), length, terms)
+        call find_terms(stepping, first, speed(first:), acceleration(first:), length, terms)
       end associate
-      call make_step(grid, rule, length, terms, steps(k), error)
+      call make_step(stepping%grid, stepping%rule, length, terms, steps(k), error)
       if (allocated(error)) return
     end do
   end subroutine make_steps
@@ -113,44 +112,33 @@ contains
   !> The state after equal steps that are taken once.
   !!
   !! Errors: as `make_steps`.
-  subroutine take_steps(structure, law, damping, axial, rule, start, length, grid, matrices, &
-    state, error)
-    class(structure_t), intent(in) :: structure        !! arguments as of `make_steps`
-    type(crank_law_t), intent(in) :: law
-    type(damping_t), intent(in) :: damping
-    logical, intent(in) :: axial
-    type(collocation_t), intent(in) :: rule
+  subroutine take_steps(structure, start, length, stepping, state, error)
+    class(structure_t), intent(in) :: structure !! arguments as of `make_steps`
     real(wp), intent(in) :: start, length
-    type(turn_grid_t), intent(inout) :: grid
-    type(motion_matrices_t), intent(inout) :: matrices
+    type(stepping_t), intent(inout) :: stepping
     type(elastic_state_t), intent(inout) :: state
     type(error_t), allocatable, intent(out) :: error
 
     type(stage_terms_t) :: terms
-    real(wp), dimension(grid%samples) :: speed, acceleration
+    real(wp), dimension(stepping%grid%samples) :: speed, acceleration
     integer :: k, s
 
-    s = size(rule%node)
-    call place_stages(structure, law, rule, start, length, grid, matrices, speed, acceleration, &
-      error)
+    s = size(stepping%rule%node)
+    call place_stages(structure, start, length, stepping, speed, acceleration, error)
     if (allocated(error)) return
-    do k = 1, grid%samples/s
+    do k = 1, stepping%grid%samples/s
       associate (first => (k - 1)*s + 1)
-        call find_terms(matrices, damping, axial, rule, first, speed(first:), &
-          acceleration(first:), length, terms)
+        call find_terms(stepping, first, speed(first:), acceleration(first:), length, terms)
       end associate
-      call take_step(grid, rule, length, terms, state, error)
+      call take_step(stepping%grid, stepping%rule, length, terms, state, error)
       if (allocated(error)) return
     end do
   end subroutine take_steps
 
   !> Terms of a step: `M_i v_i + ω G_i y_i = P_i`, `y_i = y + h Σ a_ij v_j`, `P_i = P + h Σ a_ij
   !! Ṗ_j`, `Ṗ_j = D_j v_j + V_j y_j + f_j` for the rates v of the stages.
-  subroutine find_terms(matrices, damping, axial, rule, first, speed, acceleration, h, terms)
-    type(motion_matrices_t), intent(in) :: matrices
-    type(damping_t), intent(in) :: damping
-    logical, intent(in) :: axial
-    type(collocation_t), intent(in) :: rule
+  subroutine find_terms(stepping, first, speed, acceleration, h, terms)
+    type(stepping_t), intent(in) :: stepping
     integer, intent(in) :: first            !! number of the first stage in the matrices
     real(wp), intent(in) :: speed(:)        !! (stages) ω2 [rad/s]
     real(wp), intent(in) :: acceleration(:) !! (stages) α2 [rad/s²]
@@ -160,20 +148,21 @@ contains
     real(wp), allocatable :: block(:, :)
     integer :: at, i, j, l, n, s
 
-    n = size(matrices%mass, 1)
-    s = size(rule%node)
-    if (.not. allocated(terms%v)) allocate (terms%v(n, n, s), terms%d(n, n, s), terms%g(n, n, s), &
-      terms%load(n, s), terms%left(n*s, n*s))
-    do i = 1, s
-      at = first + i - 1
-      terms%g(:, :, i) = speed(i)*matrices%slope(:, :, at)
-      terms%d(:, :, i) = transpose(terms%g(:, :, i))
-      terms%v(:, :, i) = speed(i)**2*matrices%swept(:, :, at) - stiffness_at(matrices, at, &
-        speed(i), acceleration(i), axial)
-      call add_damping(matrices, at, damping, speed(i), terms%d(:, :, i), terms%v(:, :, i))
-      terms%load(:, i) = load_at(matrices, at, speed(i), acceleration(i))
-    end do
-    associate (a => rule%matrix)
+    associate (matrices => stepping%matrices, a => stepping%rule%matrix)
+      n = size(matrices%mass, 1)
+      s = size(stepping%rule%node)
+      if (.not. allocated(terms%v)) allocate (terms%v(n, n, s), terms%d(n, n, s), &
+        terms%g(n, n, s), terms%load(n, s), terms%left(n*s, n*s))
+      do i = 1, s
+        at = first + i - 1
+        terms%g(:, :, i) = speed(i)*matrices%slope(:, :, at)
+        terms%d(:, :, i) = transpose(terms%g(:, :, i))
+        terms%v(:, :, i) = speed(i)**2*matrices%swept(:, :, at) - stiffness_at(matrices, at, &
+          speed(i), acceleration(i), stepping%axial)
+        call add_damping(matrices, at, stepping%damping, speed(i), terms%d(:, :, i), &
+          terms%v(:, :, i))
+        terms%load(:, i) = load_at(matrices, at, speed(i), acceleration(i))
+      end do
       do i = 1, s
         do l = 1, s
           block = h*a(i, l)*(terms%g(:, :, i) - terms%d(:, :, l))
