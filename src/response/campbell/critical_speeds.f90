@@ -22,7 +22,7 @@ module critical_speeds
   use mode_numbers, only: growing_mode
   use multiplier_angles, only: angle_t, angles_of, nearest_to_one
   use multiplier_crossings, only: beside, crossing_t, find_crossings
-  use resonance_growth, only: find_growth
+  use resonance_growth, only: critical_pair_t, find_growth, growth_t
   use refinements, only: refinement_t
   use response_levels, only: level_slot_t, level_t, set_equation
   use response_peaks, only: find_peaks, sampled_deflections
@@ -225,17 +225,16 @@ contains
     type(candidate_t), intent(in) :: candidate
     real(wp), intent(out) :: excitation, at_rest !! [m]
 
-    real(wp), allocatable :: growth(:, :, :), steady(:, :, :)
+    type(growth_t) :: found
     type(error_t), allocatable :: error
-    real(wp) :: lack
 
-    call find_growth(level, slow_number(level%grid, request%modes), candidate%speed, &
-      request%damping, request%terms, candidate%centre(1), &
-      candidate%square(1), 0.0_wp, huge(1.0_wp), growth, steady, lack, error)
+    call find_growth(level, slow_number(level%grid, request%modes), critical_pair_t( &
+      candidate%speed, candidate%centre(1), candidate%square(1)), request%damping, request%terms, &
+      huge(1.0_wp), found, error)
     excitation = huge(1.0_wp)
     at_rest = maxval(sampled_deflections(level%grid, load_at_speed(level%grid, candidate%speed)))
     if (allocated(error)) return
-    excitation = maxval(sampled_deflections(level%grid, growth(:, :, 1)))
+    excitation = maxval(sampled_deflections(level%grid, found%growth(:, :, 1)))
   end subroutine find_rough
 
   !> Solves for the speed with the exponents of the whole equation: by secants on the finer level,
@@ -507,18 +506,18 @@ contains
       real(wp), intent(out) :: lack
 
       type(fourier_plan_t) :: plan
-      real(wp), allocatable :: growth(:, :, :), steady(:, :, :)
+      type(growth_t) :: found
 
-      call find_growth(on, slow_number(on%grid, request%modes), candidate%speed, &
-        request%damping, request%terms, candidate%centre(number), &
-        candidate%square(number), candidate%change, max(solved_to*request%accuracy, &
-        least_change), growth, steady, lack, critical%fault)
+      call find_growth(on, slow_number(on%grid, request%modes), critical_pair_t(candidate%speed, &
+        candidate%centre(number), candidate%square(number), candidate%change), request%damping, &
+        request%terms, max(solved_to*request%accuracy, least_change), found, critical%fault)
       if (allocated(critical%fault)) return
       call open_fourier(on%grid%samples, plan)
-      largest = [largest_deflection(on%grid, plan, growth(:, :, 1)), largest_deflection(on%grid, &
-        plan, steady(:, :, 1))]
-      change = [maxval(sampled_deflections(on%grid, growth(:, :, 2))), &
-        maxval(sampled_deflections(on%grid, steady(:, :, 2)))]
+      largest = [largest_deflection(on%grid, plan, found%growth(:, :, 1)), &
+        largest_deflection(on%grid, plan, found%steady(:, :, 1))]
+      change = [maxval(sampled_deflections(on%grid, found%growth(:, :, 2))), &
+        maxval(sampled_deflections(on%grid, found%steady(:, :, 2)))]
+      lack = found%lack
       call close_fourier(plan)
     end subroutine solve
 

@@ -22,7 +22,24 @@ module resonance_growth
   implicit none (type, external)
   private
 
-  public :: find_growth
+  public :: critical_pair_t, growth_t, find_growth
+
+  !> Exponents that meet, or nearly so, at a critical speed: `σ0 ± κ`.
+  type :: critical_pair_t
+    real(wp) :: speed = 0.0_wp  !! |ω2| [rad/s]
+    real(wp) :: centre = 0.0_wp !! σ0, per radian of the crank
+    real(wp) :: square = 0.0_wp !! κ²; below 0: exponents are `σ0 ± i|κ|`
+    real(wp) :: doubt = 0.0_wp  !! their error
+  end type critical_pair_t
+
+  !> Motions over the turn: (samples, unknowns, value and error) [√J].
+  type :: growth_t
+    real(wp), allocatable :: growth(:, :, :) !! from rest, in a turn
+    real(wp), allocatable :: steady(:, :, :) !! resonant part of the steady state; 0 where
+                                             !! vibrations do not fade
+    real(wp) :: lack = 0.0_wp                !! of both, relative, by what iterations leave of
+                                             !! solutions and exponents
+  end type growth_t
 
   !> Distance of the solutions from the pole: near enough to be far from other exponents, far enough
   !! for both of the pair to lie close to it beside; times the distance of these from each other.
@@ -41,24 +58,15 @@ contains
   !! state; and the errors of both by the extrapolation, estimated.
   !!
   !! Errors: iterations do not converge; the slow motion grows too much.
-  subroutine find_growth(level, slow, speed, dampings, terms, centre, square, doubt, tolerance, &
-    growth, steady, lack, error)
+  subroutine find_growth(level, slow, pair, dampings, terms, tolerance, found, error)
     type(level_t), intent(in), target :: level       !! with this many slow coordinates
     integer, intent(in) :: slow
-    real(wp), intent(in) :: speed                    !! |ω2|, critical [rad/s]
+    type(critical_pair_t), intent(in) :: pair
     type(link_damping_t), intent(in) :: dampings(:)  !! as for `damping_of`
     type(elastic_terms_t), intent(in) :: terms
-    real(wp), intent(in) :: centre                   !! σ0, per radian of the crank
-    real(wp), intent(in) :: square                   !! κ²; below 0: exponents are `σ0 ± i|κ|`
-    real(wp), intent(in) :: doubt                    !! error of the exponents
     real(wp), intent(in) :: tolerance                !! of the solutions; huge: from the slow motion
                                                      !! alone
-    real(wp), allocatable, intent(out) :: growth(:, :, :) !! (samples, unknowns, value and error)
-                                                     !! [√J]
-    real(wp), allocatable, intent(out) :: steady(:, :, :) !! likewise; 0 where vibrations
-                                                     !! do not fade
-    real(wp), intent(out) :: lack                    !! of both, relative, by what iterations leave
-                                                     !! of solutions and exponents
+    type(growth_t), intent(out) :: found
     type(error_t), allocatable, intent(out) :: error !! why there is none
 
     type(fourier_plan_t), target :: plan
@@ -69,43 +77,41 @@ contains
     real(wp) :: eta(3), remainder
     integer :: i, side, iterations
 
-    allocate (growth(level%grid%samples, level%grid%unknowns, 2))
-    allocate (steady, mold=growth)
-    load = load_at_speed(level%grid, speed)
-    eta = max(nearest, beside_pair*sqrt(abs(square)))*distances
+    load = load_at_speed(level%grid, pair%speed)
+    eta = max(nearest, beside_pair*sqrt(abs(pair%square)))*distances
     odd = 0.0_wp
     even = 0.0_wp
-    lack = 0.0_wp
     call open_fourier(level%grid%samples, plan)
     attempt: block
-      call new_slow_motion(plan, level%basis(slow), speed, stages, motion, error)
+      call new_slow_motion(plan, level%basis(slow), pair%speed, stages, motion, error)
       if (allocated(error)) exit attempt
-      call set_equation(level, plan, motion, speed, dampings, terms, equation)
+      call set_equation(level, plan, motion, pair%speed, dampings, terms, equation)
       do i = 1, 3
         do side = -1, 1, 2
-          call approximate_solution(equation, load, y, centre + side*eta(i))
+          call approximate_solution(equation, load, y, pair%centre + side*eta(i))
           if (tolerance < 1.0_wp) then
             call solve_periodic(equation, load, tolerance, y, iterations, remainder, error, &
-              exponent=centre + side*eta(i))
+              exponent=pair%centre + side*eta(i))
             if (allocated(error)) exit attempt
-            lack = max(lack, extrapolating*remainder)
+            found%lack = max(found%lack, extrapolating*remainder)
           end if
-          odd(:, :, i) = odd(:, :, i) + 0.5_wp*side*(eta(i) - square/eta(i))*y
-          even(:, :, i) = even(:, :, i) + 0.5_wp*(eta(i)**2 - square)*y
+          odd(:, :, i) = odd(:, :, i) + 0.5_wp*side*(eta(i) - pair%square/eta(i))*y
+          even(:, :, i) = even(:, :, i) + 0.5_wp*(eta(i)**2 - pair%square)*y
         end do
       end do
     end block attempt
     call close_fourier(plan)
     if (allocated(error)) return
     ! Of a/(σ − σ0) + b/(σ − σ0)² the second is seen in the odd part where σ0 is not quite right.
-    lack = lack + extrapolating*doubt/eta(1)**2*(2.0_wp*sqrt(abs(square)) + doubt + &
-      2.0_wp*maxval(abs(even(:, :, 1)))/max(maxval(abs(odd(:, :, 1))), tiny(1.0_wp)))
+    found%lack = found%lack + extrapolating*pair%doubt/eta(1)**2*(2.0_wp*sqrt(abs(pair%square)) + &
+      pair%doubt + 2.0_wp*maxval(abs(even(:, :, 1)))/max(maxval(abs(odd(:, :, 1))), tiny(1.0_wp)))
     odd = extrapolated(odd, eta**2, 0.0_wp)
-    growth = two_pi*odd(:, :, :2)
-    steady = 0.0_wp
-    if (centre + sqrt(max(0.0_wp, square)) >= 0.0_wp) return
-    even = extrapolated(even, eta**2, square)
-    steady = (even(:, :, :2) - centre*odd(:, :, :2))/(centre**2 - square)
+    found%growth = two_pi*odd(:, :, :2)
+    allocate (found%steady, mold=found%growth)
+    found%steady = 0.0_wp
+    if (pair%centre + sqrt(max(0.0_wp, pair%square)) >= 0.0_wp) return
+    even = extrapolated(even, eta**2, pair%square)
+    found%steady = (even(:, :, :2) - pair%centre*odd(:, :, :2))/(pair%centre**2 - pair%square)
   end subroutine find_growth
 
   !> Value and error at a place of functions known at three, in the first two places of the last
