@@ -87,7 +87,7 @@ contains
   subroutine place_grid(structure, crank, grid, error)
     class(structure_t), intent(in) :: structure      !! of the grid
     real(wp), intent(in) :: crank(:)                 !! (samples) crank angles [deg]
-    type(turn_grid_t), intent(inout) :: grid         !! by `new_path_grid`
+    type(turn_grid_t), intent(inout), target :: grid !! by `new_path_grid`
     type(error_t), allocatable, intent(out) :: error !! why the grid has no terms
 
     type(term_list_t) :: list
