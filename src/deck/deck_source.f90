@@ -4,6 +4,7 @@
 !! file in the order of reading. A line number is thus a unique place, and only messages need to
 !! look up the file.
 module deck_source
+  use encodings, only: is_utf8, utf8_of_windows
   use errors, only: error_of_files, error_t, set_error
   use file_system, only: is_directory, read_standard_input, read_text
   use text, only: character_count, to_string
@@ -80,6 +81,7 @@ contains
     call take_text(path, text, reason, source, error)
   end subroutine read_file
 
+  !> What is text but not UTF-8 is taken for Windows-1252, in which older editors write umlauts.
   subroutine take_text(path, text, reason, source, error)
     character(len=*), intent(in) :: path
     character(len=*), intent(in) :: text
@@ -90,6 +92,8 @@ contains
     if (reason == "") then
       source = source_from_text(path, text)
       call find_binary(source, error)
+      if (allocated(error) .or. is_utf8(text)) return
+      source = source_from_text(path, utf8_of_windows(text))
     else
       call set_error(error, error_of_files, reason, path)
     end if

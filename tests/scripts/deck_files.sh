@@ -112,6 +112,13 @@ line_ends() {
   rm -r "$out"
 }
 
+# Umlauts as older editors write them: in tables they are UTF-8.
+latin1() {
+  { printf 'TITLE F\374r Sch\374ler \200\n'; motion_deck; } >"$scratch/latin1.deck"
+  run 0 --out "$out" "$scratch/latin1.deck" && silent && grep -q "^# Für Schüler €$" "$out/latin1/kinematics.dat" || return 1
+  rm -r "$out"
+}
+
 : >"$scratch/empty.deck"
 check "an empty deck" refused "empty.deck:1:1: error: there is no UNITS card" "$scratch/empty.deck"
 check "a missing deck" refused "absent.deck: error: no such file" "$scratch/absent.deck"
@@ -136,3 +143,4 @@ check "nothing on standard input" nothing_to_read "</dev/null" "there is nothing
 check "no standard input" nothing_to_read "<&-" "Bad file descriptor"
 check "a folder on standard input" nothing_to_read '<"$scratch"' "Is a directory"
 check "line ends of other systems" line_ends
+check "a deck in Latin-1" latin1
