@@ -32,8 +32,9 @@ module model_reader
   use measure_cards, only: card_named, read_measure_card
   use measure_checks, only: check_measures
   use mesh_checks, only: check_meshes
-  use models, only: as_four_bar, drives_length, has_gauge_histories, has_law, is_four_bar, &
-    is_loaded, is_moving, is_sprung, model_t, needs_frequencies, needs_mesh, &
+  use models, only: as_four_bar, drives_length, has_gauge_histories, has_law, &
+    inertia_distributed, inertia_none, is_four_bar, is_loaded, is_moving, is_sprung, model_t, &
+    needs_frequencies, needs_inertia, needs_mesh, &
     needs_response, report_number, runs_in_time
   use motor_cards, only: read_motor
   use motor_checks, only: find_motor_line
@@ -132,6 +133,8 @@ contains
     call show_speeds(model)
     if (model%effects == 0) model%effects = merge(effects_axial, effects_static, &
       is_moving(model) .or. is_loaded(model) .or. is_sprung(model))
+    if (model%inertia == inertia_none .and. needs_inertia(model)) model%inertia = &
+      inertia_distributed
     if (size(model%meshes) == 0 .and. needs_mesh(model)) then
       deallocate (model%meshes)
       allocate (model%meshes(1))

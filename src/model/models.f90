@@ -46,7 +46,8 @@ module models
     is_loaded, is_sprung, is_damped, needs_loads, needs_inertia, needs_frequencies, &
     needs_response, has_gauge_histories, report_in_motion, steady_state_report, &
     accuracy_of_study, needs_beams, &
-    bends_links, needs_masses, needs_mesh, report_of_masses, bears_lumped_masses, link_mass, &
+    bends_links, needs_masses, weighs_links, needs_mesh, report_of_masses, bears_lumped_masses, &
+    link_mass, &
     link_line_density, speed_in_table, speed_in_words, is_four_bar, as_four_bar, &
     is_of_four_bar, word_of_four_bar, is_pin, pivots, &
     is_end_of_spring, is_end_of_measure, nature_of_positions, drives_length, balances, &
@@ -132,7 +133,8 @@ module models
     real(wp) :: ramp = 0.0_wp                   !! time in which REPORT transient gets to the speed
                                                 !! from rest; 0: it has it [s]
     type(token_t) :: ramp_word
-    integer :: inertia = inertia_none           !! one of the inertia_… constants; none: no card
+    integer :: inertia = inertia_none           !! one of the inertia_… constants; none: it does not
+                                                !! matter
     type(token_t) :: inertia_word
     integer :: effects = effects_static         !! effects_static or effects_axial
     logical :: rotary = .false.                 !! cross-sections have rotary inertia
@@ -640,13 +642,25 @@ contains
     needs = report_of_masses(model) > 0
   end function needs_masses
 
-  !> Whether the lumped masses of a link sit on nodes. A link that is rigid or has a mass of its own
-  !! has no nodes.
+  !> Whether any report depends on the masses of links: at rest and without gravity, forces do not.
+  pure function weighs_links(model) result(weighs)
+    type(model_t), intent(in) :: model !! as read
+    logical :: weighs
+
+    if (is_moving(model) .or. any(abs(model%gravity) > 0.0_wp)) then
+      weighs = needs_masses(model)
+    else
+      weighs = any(model%reports%kind%weighs)
+    end if
+  end function weighs_links
+
+  !> Whether the lumped masses of a link sit on nodes: those of its section. A link that is rigid or
+  !! has a mass of its own has no nodes.
   elemental function bears_lumped_masses(link) result(bears)
     type(link_t), intent(in) :: link !! of the deck
     logical :: bears
 
-    bears = .not. (link%rigid .or. has_own_mass(link))
+    bears = link%section_name%line > 0 .and. .not. (link%rigid .or. has_own_mass(link))
   end function bears_lumped_masses
 
   !> Whether links must be divided into elements: for beams, and for lumped masses, which sit on

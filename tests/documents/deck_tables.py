@@ -18,7 +18,6 @@ CARDS = {
     "MESH": "MESH * elements=2",
     "CRANK": "CRANK 30 60",
     "SPEED": "SPEED 20 30",
-    "INERTIA": "INERTIA distributed",
     "POINT": "POINT tip coupler along=100",
 }
 BEAMS, BODIES = " material=steel section=strip", " mass=1"
@@ -43,7 +42,9 @@ class Tables:
     def _links(self, report):
         if self._accepts(report, links=""):
             return UNUSED
-        return "yes, or `mass=`" if self._accepts(report, links=BODIES, without=["MESH"]) else NEEDED
+        if not self._accepts(report, links=BODIES, without=["MESH"]):
+            return NEEDED
+        return "yes, or `mass=`" + ("; at rest –" if self._accepts(report, links="", without=["SPEED"]) else "")
 
     def _mesh(self, report):
         if self._accepts(report, links="", without=["MESH"]) or self._accepts(report, links=BODIES, without=["MESH"]):
@@ -53,21 +54,14 @@ class Tables:
             return UNUSED
         return "or the default" if self._accepts(report, without=["MESH"]) else NEEDED
 
-    def _inertia(self, report):
-        if self._accepts(report, without=["INERTIA"]):
-            return UNUSED
-        if self._accepts(report, without=["INERTIA", "MESH"], links=BODIES):
-            return "yes, unless with `mass=`"
-        return "under motion or gravity" if self._accepts(report, without=["INERTIA", "SPEED"]) else NEEDED
-
     def report_needs(self):
         for report in language(self._program).reports:
             if not self._accepts(report):
                 raise ValueError(f"the deck of all cards is refused with REPORT {report}")
             if report == "summary":
-                yield [Word(f"`{report}`"), Word(NEEDED), *[Word("as the reports of its quantities")] * 4]
+                yield [Word(f"`{report}`"), Word(NEEDED), *[Word("as the reports of its quantities")] * 3]
                 continue
             yield [Word(f"`{report}`"),
                    Word(UNUSED if self._accepts(report, without=["CRANK"]) else NEEDED),
-                   Word(self._links(report)), Word(self._mesh(report)), Word(self._inertia(report)),
+                   Word(self._links(report)), Word(self._mesh(report)),
                    Word(UNUSED if self._accepts(report, without=["POINT"]) else NEEDED)]

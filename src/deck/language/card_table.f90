@@ -191,7 +191,7 @@ module card_table
       pattern="TIME a to b step s, or a list of instants", &
       help="the instants of tables, in place of CRANK and SPEED, if the drive has a law"), &
     card_kind_t("INERTIA", is_single=.true., least=1, most=1, &
-      pattern="INERTIA lumped|distributed", choices="lumped distributed", &
+      pattern="INERTIA lumped|distributed", choices="lumped distributed", default="distributed", &
       help="where inertia loads act: at the nodes of the mesh, or along the links"), &
     card_kind_t("EFFECTS", is_single=.true., least=1, most=4, &
       pattern="EFFECTS [static|axial] [rotary] [shear]", choices="static axial rotary shear", &

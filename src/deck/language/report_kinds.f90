@@ -41,6 +41,7 @@ module report_kinds
     character(len=64) :: studies = "" !! that provide its rows, separated by blanks
     logical :: positions = .false.    !! it has rows for every crank angle
     logical :: masses = .false.       !! it uses masses and their loads
+    logical :: weighs = .false.       !! so it does at rest and without gravity
     logical :: beams = .false.        !! it uses links as beams
     logical :: frequencies = .false.  !! it uses natural frequencies
     logical :: response = .false.     !! it uses the elastic response of links at constant speed

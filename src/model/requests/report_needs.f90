@@ -3,10 +3,8 @@ module report_needs
   use card_table, only: pattern_of
   use diagnostics, only: add_error, diagnostics_t
   use link_cards, only: has_own_mass, link_t
-  use models, only: bears_lumped_masses, bends_links, inertia_lumped, inertia_none, is_moving, &
-    model_t, needs_beams, needs_frequencies, needs_inertia, needs_masses, needs_response, &
-    report_number, report_of_masses, &
-    runs_in_time
+  use models, only: bears_lumped_masses, bends_links, inertia_lumped, model_t, needs_beams, &
+    needs_frequencies, needs_masses, needs_response, report_number, runs_in_time, weighs_links
   use text, only: joined, word_list
   implicit none (type, external)
   private
@@ -16,9 +14,8 @@ module report_needs
 contains
 
   !> Checks what reports need. Errors: a link without material, section or mesh, or without a mass;
-  !! a bending link with its own mass; no INERTIA card where results depend on it; REPORT points
-  !! without POINT cards, REPORT friction without FRICTION cards; REPORT equilibrium with several
-  !! free drives.
+  !! a bending link with its own mass; REPORT points without POINT cards, REPORT friction without
+  !! FRICTION cards; REPORT equilibrium with several free drives.
   pure subroutine check_report_needs(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(model_t), intent(in) :: model                !! whose links have their materials, sections
@@ -29,7 +26,6 @@ contains
     do i = 1, size(model%links)
       call check_link(diagnostics, model, model%links(i))
     end do
-    call check_inertia_card(diagnostics, model)
     i = report_number(model, "equilibrium")
     ! The first drive does not act there, whatever its card says.
     if (i > 0 .and. any(model%drives(2:)%is_free)) call add_error(diagnostics, &
@@ -69,7 +65,7 @@ contains
     logical :: beam, mass, mesh
 
     beam = bends_links(model) .and. .not. link%rigid
-    mass = needs_masses(model) .or. needs_frequencies(model) .or. needs_response(model)
+    mass = weighs_links(model) .or. needs_frequencies(model) .or. needs_response(model)
     mesh = (needs_beams(model) .and. .not. link%rigid) .or. (needs_masses(model) .and. &
       model%inertia == inertia_lumped .and. bears_lumped_masses(link))
     if (beam .and. has_own_mass(link)) then
@@ -91,27 +87,5 @@ contains
       joined(word_list(lacking(2:)), " or ")//"; the reports asked for need "// &
       trim(merge("it  ", "them", index(lacking(2:), " ") == 0))//way_out)
   end subroutine check_link
-
-  !> INERTIA has no default: it is required where results depend on it.
-  pure subroutine check_inertia_card(diagnostics, model)
-    type(diagnostics_t), intent(inout) :: diagnostics
-    type(model_t), intent(in) :: model
-
-    character(len=*), parameter :: expected = &
-      ", and there is no INERTIA card; expected: INERTIA lumped or INERTIA distributed"
-    integer :: report
-
-    if (model%inertia /= inertia_none .or. .not. needs_inertia(model)) return
-    report = report_of_masses(model)
-    if (report > 0) then
-      call add_error(diagnostics, model%reports(report)%keyword, &
-        "this report uses inertia loads"//expected)
-    else
-      report = findloc(model%reports%kind%frequencies, .true., dim=1, back=.true.)
-      call add_error(diagnostics, model%reports(report)%keyword, &
-        "frequencies under the loads of "// &
-        trim(merge("the motion", "gravity   ", is_moving(model)))//" are asked for"//expected)
-    end if
-  end subroutine check_inertia_card
 
 end module report_needs

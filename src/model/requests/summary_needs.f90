@@ -88,6 +88,7 @@ contains
     type(report_kind_t), intent(inout) :: kind
 
     kind%masses = kind%masses .or. source%masses
+    kind%weighs = kind%weighs .or. source%weighs
     kind%beams = kind%beams .or. source%beams
     kind%frequencies = kind%frequencies .or. source%frequencies
     kind%response = kind%response .or. source%response

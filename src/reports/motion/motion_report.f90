@@ -63,7 +63,8 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="motion", help="the motion under motor and loads", &
-      pattern=pattern, default=default, studies="motion", masses=.true., linkages=four_bars)
+      pattern=pattern, default=default, studies="motion", masses=.true., &
+      weighs=.true., linkages=four_bars)
     call add_table(report, motion_table_t(), "motion", motion_columns, words=motion_words())
     call add_table(report, motion_pins_table_t(), "motion_pins", "time:time pin:name x,y:length")
     call add_table(report, motion_coordinates_table_t(), "motion_coordinates", "time:time "// &
@@ -75,7 +76,7 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="motion", help="of other linkages: their motion", &
-      pattern=pattern, default=default, studies="motion", masses=.true., &
+      pattern=pattern, default=default, studies="motion", masses=.true., weighs=.true., &
       linkages=other_linkages)
     call add_table(report, motion_table_t(), "motion", "time:time position*:deg "// &
       "rate*:rate torque:moment kinetic,potential,work,energy_error:energy "// &

@@ -67,7 +67,7 @@ contains
 
     report%kind = report_kind_t(name="balance", help="shaking force, counterweights, harmonics", &
       pattern="REPORT balance [format=]", studies="joints balance harmonics", positions=.true., &
-      masses=.true., numbers=210, &
+      masses=.true., weighs=.true., numbers=210, &
       linkages=four_bars)
     call add_table(report, balance_table_t(), "balance", "speed:speed crank:deg xG,yG:length "// &
       "shaking_x,shaking_y:force shaking_moment,torque:moment balanced_x,balanced_y:force "// &
@@ -83,7 +83,7 @@ contains
 
     report%kind = report_kind_t(name="balance", help="of other linkages: shaking force, "// &
       "counterweights", pattern="REPORT balance [format=]", &
-      studies="joints balance harmonics", positions=.true., masses=.true., &
+      studies="joints balance harmonics", positions=.true., masses=.true., weighs=.true., &
       linkages=other_linkages)
     call add_table(report, hung_balance_table_t(), "balance", "speed:speed crank:deg xG,"// &
       "yG:length shaking_x,shaking_y:force shaking_moment:moment torque:effort balanced_x?,"// &

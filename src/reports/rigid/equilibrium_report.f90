@@ -70,6 +70,9 @@ contains
         "frequency: of small oscillations without friction about a stable rest, else 0; "// &
         "error: estimated, relative")
       call append_string(notes, potential_note)
+      if (any(verdicts(found%at%kind) == "stable" .and. .not. found%at%inertia > 0.0_wp)) call &
+        append_string(notes, "no mass moves about a stable rest whose frequency is 0: it snaps "// &
+        "back at once")
       if (found%gaps > 0) call append_string(notes, plural(found%gaps, "sample")// &
         " without a value, at dead points or beyond what loads allow: nothing is said of them")
       if (found%is_cut) call append_string(notes, "the first drive goes on beyond what has "// &

@@ -38,7 +38,7 @@ contains
 
     report%kind = report_kind_t(name="inertia", help="masses, their accelerations and "// &
       "inertia forces", pattern="REPORT inertia [format=]", studies="inertia", &
-      positions=.true., masses=.true., reserved=.true., &
+      positions=.true., masses=.true., weighs=.true., reserved=.true., &
       numbers=46, linkages=four_bars)
     call add_table(report, inertia_table_t(), "inertia", "speed:speed crank:deg mass:# "// &
       "link:name x,y:length ax,ay:acceleration Fx,Fy:force m:mass moment?:moment")
@@ -50,7 +50,7 @@ contains
 
     report%kind = report_kind_t(name="inertia", help="of other linkages: masses and their "// &
       "inertia forces", pattern="REPORT inertia [format=]", studies="inertia", &
-      positions=.true., masses=.true., reserved=.true., &
+      positions=.true., masses=.true., weighs=.true., reserved=.true., &
       linkages=other_linkages)
     call add_table(report, inertia_table_t(), "inertia", "speed:speed crank:deg mass:# "// &
       "link:name x,y:length ax,ay:acceleration Fx,Fy:force m:mass moment:moment")

@@ -31,8 +31,8 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="lagrange", help="the torque from energies", &
-      pattern="REPORT lagrange [columns=]", studies="lagrange", positions=.true., masses=.true., &
-      numbers=5)
+      pattern="REPORT lagrange [columns=]", studies="lagrange", positions=.true., &
+      masses=.true., weighs=.true., numbers=5)
     call add_table(report, lagrange_table_t(), "lagrange", "speed:speed crank:deg M,"// &
       "dM:inertia V,gravity,load,torque:moment kinetic,potential:energy")
   end subroutine describe_lagrange

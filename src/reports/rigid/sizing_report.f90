@@ -62,7 +62,8 @@ contains
     type(report_record_t), intent(out) :: report !! for the list of reports
 
     report%kind = report_kind_t(name="sizing", help="peaks and means of drives and bearings, "// &
-      "the flywheel", pattern="REPORT sizing [fluctuation=]", studies="sizing", masses=.true.)
+      "the flywheel", pattern="REPORT sizing [fluctuation=]", studies="sizing", &
+      masses=.true., weighs=.true.)
     call add_table(report, sizing_table_t(), "sizing", "speed:speed part,pin,quantity:name "// &
       "value:see_unit unit:name crank:deg error:-")
   end subroutine describe_sizing

@@ -7,7 +7,7 @@ module echo
   use kinds, only: wp
   use link_bodies, only: link_center, link_inertia
   use link_cards, only: has_own_mass
-  use models, only: branch_crossed, has_law, is_four_bar, link_mass, model_t
+  use models, only: branch_crossed, has_law, inertia_none, is_four_bar, link_mass, model_t
   use response_cards, only: response_form
   use sections, only: shape_channel
   use shear, only: link_rotary_inertia, link_shear_stiffness, shear_coefficient
@@ -69,6 +69,9 @@ contains
       ! A model without MESH cards has a mesh only where a report needs one.
       if (size(model%meshes) > 0) call append_default_text(buffer, model, trim(kind%keyword), &
         trim(kind%default))
+    case ("INERTIA")
+      if (model%inertia /= inertia_none) call append_default_text(buffer, model, &
+        trim(kind%keyword), trim(kind%default))
     case ("BRANCH")
       ! Other linkages have none; that of a four-bar may come from the drawing. With a card every
       ! position would keep its side at change points.
