@@ -9,7 +9,7 @@ module link_bodies
   implicit none (type, external)
   private
 
-  public :: link_center, link_inertia
+  public :: link_center, link_inertia, uniform_center
 
 contains
 
@@ -27,8 +27,8 @@ contains
   !> Mass centre of the uniform link, whatever its `center=`: of one with several segments that of
   !! all of them.
   pure function uniform_center(model, link) result(center)
-    type(model_t), intent(in) :: model
-    integer, intent(in) :: link
+    type(model_t), intent(in) :: model !! as read
+    integer, intent(in) :: link        !! number in the model, from 1
     real(wp) :: center(2)
 
     real(wp), allocatable :: middle(:, :), length(:)

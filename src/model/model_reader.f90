@@ -5,7 +5,7 @@ module model_reader
   use balance_cards, only: is_shaft_form, read_balance, read_shaft, shaft_card_t, shaft_form
   use balance_checks, only: check_balance
   use body_cards, only: read_mass, read_point
-  use body_checks, only: check_bodies
+  use body_checks, only: check_bodies, warn_of_far_centers
   use card_lists, only: append_card
   use card_reader, only: has_value, read_choice, value_of
   use card_table, only: card_kind_number, card_kinds, card_names
@@ -160,6 +160,7 @@ contains
     call find_gauges(diagnostics, model)
     call find_four_bar_branch(diagnostics, model)
     call check_requests(cards, diagnostics, model)
+    call warn_of_far_centers(diagnostics, model)
     call check_shear(diagnostics, model)
     call check_meshes(cards, diagnostics, model)
     call check_bare_units(cards, diagnostics, model)

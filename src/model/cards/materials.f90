@@ -3,7 +3,7 @@ module materials
   use card_reader, only: check_form, has_key, read_entry_quantity, read_name, refuse_negative, &
     require_positive, value_of
   use cards, only: card_t
-  use diagnostics, only: add_error, add_warning, diagnostics_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use kinds, only: wp
   use text, only: to_string
   use tokens, only: token_t
@@ -32,12 +32,18 @@ module materials
   !! density turns steel's 5100 m/s into 5 or 5,100,000 [m/s].
   real(wp), parameter :: impossible_slow_wave = 10.0_wp, impossible_fast_wave = 100000.0_wp
 
+  !> Limits of what solids have. Below the least density are gases, fibres and foams, which are
+  !! soft.
+  real(wp), parameter :: least_modulus = 1.0e6_wp, most_modulus = 1.0e13_wp, &
+    most_modulus_of_foam = 1.0e8_wp !! [Pa]
+  real(wp), parameter :: least_density = 100.0_wp, most_density = 25000.0_wp !! [kg/m³]
+
 contains
 
   !> Reads `MATERIAL name E= density= [nu=]`. Errors: words or keys that do not fit the card, an
   !! invalid name, a missing or unreadable value, E of 0 or less, a density below 0, ν
   !! outside (−1, 0.5].
-  !! Warning: a speed of sound that points to wrong units.
+  !! Warning: a speed of sound, E or a density that point to wrong units.
   pure subroutine read_material(card, system, diagnostics, material)
     type(card_t), intent(in) :: card                  !! the MATERIAL card
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
@@ -72,9 +78,38 @@ contains
 
     ! A unit after a blank is refused, and its number has the wrong one.
     if (.not. (is_whole .and. has_modulus .and. has_density)) return
-    if (material%youngs_modulus <= 0.0_wp .or. material%density <= 0.0_wp) return
+    if (material%youngs_modulus <= 0.0_wp .or. material%density < 0.0_wp) return
+    if (material%is_massless) then
+      call check_alone(material, diagnostics)
+      return
+    end if
     call check_wave_speed(material, sqrt(material%youngs_modulus/material%density), diagnostics)
   end subroutine read_material
+
+  !> Adds a warning if E or the density are those of no solid: both may be wrong by one factor, by
+  !! which the speed of sound stays right.
+  pure subroutine check_alone(material, diagnostics)
+    type(material_t), intent(in) :: material
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    character(len=:), allocatable :: what
+
+    ! Of a deck with errors the units may be others.
+    if (has_errors(diagnostics)) return
+    what = "E = "//to_string(material%youngs_modulus, 3)//" Pa of '"//material%name%text//"'"
+    if (material%youngs_modulus < least_modulus .or. material%youngs_modulus > most_modulus) then
+      what = what//" is that of no solid (rubber: 1e6 to 1e7, steel: 2.1e11, diamond: 1.1e12)"
+    else if (material%density > most_density .or. material%density < least_density .and. &
+      material%density > 0.0_wp .and. material%youngs_modulus > most_modulus_of_foam) then
+      what = "density "//to_string(material%density, 3)//" kg/m3 of '"//material%name%text// &
+        "' is that of no solid with E = "//to_string(material%youngs_modulus, 3)// &
+        " Pa (balsa: 150, steel: 7850, osmium: 22600)"
+    else
+      return
+    end if
+    call add_warning(diagnostics, material%name, what//": are the units of E and density "// &
+      "right? Write them, as in E=210GPa density=7850kg/m3", grade=grade_doubt)
+  end subroutine check_alone
 
   !> Adds a warning if sound would be too slow or too fast for a material.
   pure subroutine check_wave_speed(material, wave_speed, diagnostics)
@@ -85,7 +120,10 @@ contains
     character(len=:), allocatable :: sound
     real(wp) :: amount
 
-    if (wave_speed >= slowest_wave .and. wave_speed <= fastest_wave) return
+    if (wave_speed >= slowest_wave .and. wave_speed <= fastest_wave) then
+      call check_alone(material, diagnostics)
+      return
+    end if
     amount = max(slowest_wave/wave_speed, wave_speed/fastest_wave)
     sound = "sound would travel through '"//material%name%text//"' at "//to_string(wave_speed)// &
       " m/s (lead: 1200, steel: 5100, diamond: 17000)"

@@ -1,18 +1,21 @@
 !> Checks of MASS, POINT, FORCE and TORQUE cards: the links and pins that they name, and
 !! whether rigid bodies have all their data.
 module body_checks
-  use diagnostics, only: add_error, diagnostics_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t
+  use kinds, only: wp
+  use link_bodies, only: link_center, link_inertia, uniform_center
   use link_cards, only: link_t
   use link_checks, only: is_ram
-  use models, only: model_t
+  use models, only: is_moving, model_t, needs_masses
   use name_checks, only: link_ends, look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
-  use text, only: same_word
+  use text, only: same_word, to_string
   use tokens, only: token_t, token_texts
+  use units, only: coherent_unit, dimension_inertia, dimension_length, from_si, unit_t
   implicit none (type, external)
   private
 
-  public :: check_bodies, seek_link, seek_loaded_pin
+  public :: check_bodies, warn_of_far_centers, seek_link, seek_loaded_pin
 
 contains
 
@@ -145,5 +148,34 @@ contains
       "' has a mass, no moment of inertia, and no length of its own; expected "// &
       "'inertia=' about its mass centre")
   end subroutine check_inertia
+
+  !> A mass that lies beside its link is no uniform bar from pin to pin, whose moment of inertia it
+  !! has by default.
+  pure subroutine warn_of_far_centers(diagnostics, model)
+    type(diagnostics_t), intent(inout) :: diagnostics !! warnings are added
+    type(model_t), intent(in) :: model                !! with the lengths of its links
+
+    type(unit_t) :: length, inertia
+    real(wp) :: way
+    integer :: i
+
+    if (.not. (needs_masses(model) .and. is_moving(model) .or. any(model%reports%kind%weighs))) &
+      return
+    length = coherent_unit(model%units, dimension_length)
+    inertia = coherent_unit(model%units, dimension_inertia)
+    do i = 1, size(model%links)
+      associate (link => model%links(i))
+        way = norm2(link_center(model, i) - uniform_center(model, i))
+        if (link%has_inertia .or. .not. link%mass > 0.0_wp .or. .not. link%length > 0.0_wp .or. &
+          way <= link%length) cycle
+        call add_warning(diagnostics, link%body_word, "the mass of link '"//link%name%text// &
+          "' lies "//to_string(from_si(way, length), 4)//" "//length%name//" beside the middle "// &
+          "of its pins, and it has the moment of inertia of a bar of "// &
+          to_string(from_si(link%length, length), 4)//" "//length%name//", "// &
+          to_string(from_si(link_inertia(model, i), inertia), 4)//" "//inertia%name// &
+          "; expected 'inertia='", amount=way/link%length)
+      end associate
+    end do
+  end subroutine warn_of_far_centers
 
 end module body_checks

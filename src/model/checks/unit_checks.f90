@@ -1,9 +1,10 @@
 !> Warnings about bare numbers that are in another unit than the results: who reads N in the tables
-!! takes a bare 10 for 10 N, and in a deck of mm, kg and s it is 10 kg mm/s².
+!! takes a bare 10 for 10 N, and in a deck of mm, kg and s it is 10 kg mm/s²; or that only another
+!! unit makes likely: 1500 is a number of turns a minute.
 module unit_checks
   use card_reader, only: has_value, value_of
   use cards, only: card_t
-  use diagnostics, only: add_warning, diagnostics_t
+  use diagnostics, only: add_warning, diagnostics_t, has_errors
   use errors, only: error_t
   use kinds, only: wp
   use models, only: drives_length, model_t
@@ -11,11 +12,14 @@ module unit_checks
   use text, only: same_word, to_string
   use tokens, only: token_t
   use units, only: coherent_unit, dimension_force, dimension_moment, dimension_rate, from_si, &
-    to_si, unit_t
+    read_unit, to_si, unit_t
   implicit none (type, external)
   private
 
   public :: check_bare_units
+
+  !> Above it a bare speed is doubted: a crank at 1900 rpm [rad/s].
+  real(wp), parameter :: fastest_crank = 200.0_wp
 
 contains
 
@@ -34,7 +38,45 @@ contains
     if (drives_length(model)) return
     call check_quantity(cards, "speeds", coherent_unit(model%units, dimension_rate), &
       model%outputs%rate, diagnostics)
+    call check_speeds(cards, model, diagnostics)
   end subroutine check_bare_units
+
+  !> Warns of the first bare speed that is rather one in rpm, unless all bare speeds are told of.
+  pure subroutine check_speeds(cards, model, diagnostics)
+    type(card_t), intent(in) :: cards(:)
+    type(model_t), intent(in) :: model
+    type(diagnostics_t), intent(inout) :: diagnostics
+
+    type(unit_t) :: bare, rpm
+    type(error_t), allocatable :: error
+    type(token_t), allocatable :: words(:)
+    real(wp) :: speed
+    integer :: i, k
+
+    bare = coherent_unit(model%units, dimension_rate)
+    if (has_errors(diagnostics) .or. .not. are_same(bare, model%outputs%rate)) return
+    call read_unit("rpm", dimension_rate, rpm, error)
+    do i = 1, size(cards)
+      call find_words(cards(i), "speeds", words)
+      do k = 1, size(words)
+        if (.not. is_bare(words(k))) cycle
+        call read_real(words(k)%text, speed, error)
+        if (abs(to_si(speed, bare)) <= fastest_crank) cycle
+        call add_warning(diagnostics, words(k), "bare speeds are in "//bare%name//", and "// &
+          words(k)%text//" "//bare%name//" is "//to_string(from_si(to_si(speed, bare), rpm), 5)// &
+          " rpm; expected a unit: '"//words(k)%text//"rpm' or '"//words(k)%text//bare%name//"'")
+        return
+      end do
+    end do
+  end subroutine check_speeds
+
+  !> Whether two units are one, but for rounding.
+  elemental function are_same(a, b) result(are)
+    type(unit_t), intent(in) :: a, b !! of one dimension
+    logical :: are
+
+    are = abs(to_si(1.0_wp, a)/to_si(1.0_wp, b) - 1.0_wp) <= 1.0e-12_wp
+  end function are_same
 
   !> Warns of the first bare number of a quantity.
   pure subroutine check_quantity(cards, noun, bare, shown, diagnostics)
@@ -46,7 +88,7 @@ contains
     type(token_t), allocatable :: words(:)
     integer :: i, k
 
-    if (abs(to_si(1.0_wp, bare)/to_si(1.0_wp, shown) - 1.0_wp) <= 1.0e-12_wp) return
+    if (are_same(bare, shown)) return
     do i = 1, size(cards)
       call find_words(cards(i), noun, words)
       do k = 1, size(words)
