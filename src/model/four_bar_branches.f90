@@ -7,8 +7,9 @@ module four_bar_branches
   use models, only: branch_crossed, branch_open, is_four_bar, model_t, word_of_four_bar
   use name_index, only: find_name, name_index_t, new_name_index
   use report_kinds, only: any_linkage, four_bars
-  use text, only: same_word
+  use text, only: same_word, to_string
   use tokens, only: token_t, token_texts
+  use units, only: coherent_unit, dimension_length, from_si, unit_t
   implicit none (type, external)
   private
 
@@ -37,7 +38,7 @@ contains
       if (model%branch_word%line == 0) return
       call add_error(diagnostics, model%branch_word, "open and crossed are the branches of a "// &
         "four-bar; of another linkage: BRANCH pin left|right pin pin, BRANCH pin "// &
-        "forward|backward, or PIN cards")
+        "forward|backward, or PIN cards"//loaded_point(model))
       return
     end if
     call find_loop(model, loops, pins)
@@ -47,6 +48,49 @@ contains
       call refuse_open_loop(diagnostics, model)
     end if
   end subroutine find_four_bar_branch
+
+  !> For a four-bar but for a point that a FORCE makes a pin: the card that leaves it one. Else an
+  !! empty text.
+  pure function loaded_point(model) result(hint)
+    type(model_t), intent(in) :: model !! no four-bar
+    character(len=:), allocatable :: hint
+
+    type(model_t) :: pointless
+    type(unit_t) :: length
+    integer :: i
+
+    hint = ""
+    pointless = model
+    deallocate (pointless%points)
+    allocate (pointless%points(0))
+    if (.not. is_four_bar(pointless)) return
+    do i = 1, size(model%points)
+      associate (point => model%points(i))
+        if (.not. (any_same(model%forces%pin, point%name) .or. any_same(model%processes%subject, &
+          point%name))) cycle
+        length = coherent_unit(model%units, dimension_length)
+        hint = "; it is none because the FORCE on '"//point%name%text//"' makes this point a "// &
+          "pin: FORCE "//point%link_name%text//" fx fy at="//to_string(from_si(point%place(1), &
+          length), 12)
+        if (abs(point%place(2)) > 0.0_wp) hint = hint//" offset="// &
+          to_string(from_si(point%place(2), length), 12)
+        hint = hint//" loads the same place of a four-bar"
+        return
+      end associate
+    end do
+  end function loaded_point
+
+  pure function any_same(words, name) result(any_is)
+    type(token_t), intent(in) :: words(:), name
+    logical :: any_is
+
+    integer :: i
+
+    any_is = .false.
+    do i = 1, size(words)
+      any_is = any_is .or. same_word(words(i)%text, name%text)
+    end do
+  end function any_same
 
   !> Refuses `format=four_bar` of a linkage that has no such loop: its tables are then those of the
   !! deck.

@@ -204,7 +204,8 @@ contains
     length = number_length(word%text)
     if (length == 0) then
       call add_error(diagnostics, word, "'"//word%text//"' is not a number"// &
-        dash_hint(word%text)//"; expected "//dimension_name(dimension), kind=error_of_writing)
+        dash_hint(word%text)//unit_apart(word%text)//"; expected "//dimension_name(dimension), &
+        kind=error_of_writing)
       return
     end if
     call read_real(word%text(:length), value, error)

@@ -31,6 +31,13 @@ module key_hints
     other_name_t("rho dens", "density"), &
     other_name_t("poisson poissons poisson's mu v", "nu"), &
     other_name_t("len l", "length"), &
+    other_name_t("length l l0 rest rest_length", "free_length"), &
+    other_name_t("angle theta phi rest_angle", "free_angle"), &
+    other_name_t("k rate spring_rate spring_constant", "stiffness"), &
+    other_name_t("preload pretension f f0", "force"), &
+    other_name_t("mu mue friction f", "coefficient"), &
+    other_name_t("r", "radius"), &
+    other_name_t("clearance play", "gap"), &
     other_name_t("mat", "material"), &
     other_name_t("sec sect profile", "section"), &
     other_name_t("m weight", "mass"), &

@@ -364,7 +364,8 @@ contains
     fine = size(words) >= i + 4
     if (fine) fine = same_word(words(i + 3)%text, "step")
     if (.not. fine) then
-      call add_error(diagnostics, words(i + 1), "a range of "//noun//"s is written: a to b step s")
+      call add_error(diagnostics, words(i + 1), "a range of "//noun// &
+        "s is written: a to b step s"//unit_inside(words(i + 1:)))
       return
     end if
     call read_value(words(i + 2), dimension, bare, diagnostics, last, fine)
@@ -374,6 +375,25 @@ contains
       fine = .false.
     end if
   end subroutine read_range_end
+
+  !> For a range with a unit among its words: its place, in words to end a pattern. Else an empty
+  !! text.
+  pure function unit_inside(words) result(hint)
+    type(token_t), intent(in) :: words(:) !! from the `to` of a range on
+    character(len=:), allocatable :: hint
+
+    type(unit_t) :: measure
+    type(error_t), allocatable :: error
+    integer :: i
+
+    hint = ""
+    do i = 2, min(size(words), 5)
+      if (number_length(words(i)%text) > 0 .or. same_word(words(i)%text, "step")) cycle
+      call read_unit(words(i)%text, dimension_none, measure, error)
+      if (.not. allocated(error)) hint = " "//words(i)%text//", its unit at the end"
+      return
+    end do
+  end function unit_inside
 
   !> Appends the points of a range.
   pure subroutine append_range(first, last, step, dimension, word, noun, diagnostics, list, &

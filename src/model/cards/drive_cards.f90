@@ -9,6 +9,7 @@ module drive_cards
   use kinds, only: wp
   use measure_cards, only: card_named, nature_of_measure
   use natures, only: angle_nature, are_alike, length_nature, nature_t
+  use numbers, only: number_length
   use spelling, only: suggestion
   use text, only: same_word, word_list
   use tokens, only: token_t
@@ -91,6 +92,10 @@ contains
       kind = merge(drive_measured_angle, drive_measured_length, nature%noun == angle_nature%noun)
     case (2)
       kind = merge(drive_ram, drive_slider, same_word(card%words(2)%text, "length"))
+      ! The angle of a link with a word too many is no place of a block.
+      if (kind == drive_slider .and. card_named(cards, "LINK", card%words(1)%text) > 0 .and. &
+        max(card_named(cards, "GUIDE", card%words(2)%text), card_named(cards, "LINK", &
+        card%words(2)%text)) == 0) kind = 0
     case (3)
       if (same_word(card%words(2)%text, "against")) kind = drive_relative
     end select
@@ -211,6 +216,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(drive_card_t), intent(inout) :: drive
 
+    character(len=:), allocatable :: hint
     integer :: words
 
     words = word_count(card)
@@ -223,11 +229,13 @@ contains
       call add_error(diagnostics, card%keyword, "this card is too short; expected: "// &
         pattern_of("DRIVE"))
     else
-      ! Of three words the second is wrong, of four the fourth is not `free`.
-      words = merge(2, 4, words == 3)
+      ! Of two or three words the second is wrong, of four the fourth is not `free`.
+      words = merge(2, 4, words < 4)
+      hint = suggestion(card%words(words)%text, word_list("against free length"))
+      if (number_length(card%words(words)%text) > 0) hint = " (positions are on CRANK, speeds "// &
+        "on SPEED)"
       call add_error(diagnostics, card%words(words), "unexpected '"//card%words(words)%text// &
-        "'"//suggestion(card%words(words)%text, word_list("against free"))//"; expected: "// &
-        pattern_of("DRIVE"))
+        "'"//hint//"; expected: "//pattern_of("DRIVE"))
     end if
   end subroutine read_subject
 

@@ -7,6 +7,7 @@
 
 !> Names across cards: duplicate definitions, and references from card to card.
 module name_checks
+  use card_table, only: pattern_of
   use diagnostics, only: add_error, add_warning, diagnostics_t
   use errors, only: error_of_input, error_of_writing
   use link_cards, only: link_t
@@ -14,7 +15,7 @@ module name_checks
   use name_index, only: find_name, name_index_t, new_name_index
   use process_cards, only: process_resistance
   use spelling, only: suggestion
-  use text, only: append_string, same_word, string_t
+  use text, only: append_string, same_word, string_t, upper_case
   use tokens, only: token_t, token_texts
   implicit none (type, external)
   private
@@ -101,20 +102,35 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(inout) :: model
 
-    type(name_index_t) :: materials, sections
-    integer :: i
-
-    materials = new_name_index(token_texts(model%materials%name))
-    sections = new_name_index(token_texts(model%sections%name))
-    do i = 1, size(model%links)
-      associate (link => model%links(i))
-        if (link%material_name%line > 0) call look_up(link%material_name, materials, "material", &
-          diagnostics, link%material)
-        if (link%section_name%line > 0) call look_up(link%section_name, sections, "section", &
-          diagnostics, link%section)
-      end associate
-    end do
+    call find_parts(model%links%material_name, new_name_index(token_texts(model%materials%name)), &
+      "material", diagnostics, model%links%material)
+    call find_parts(model%links%section_name, new_name_index(token_texts(model%sections%name)), &
+      "section", diagnostics, model%links%section)
   end subroutine find_materials_and_sections
+
+  !> Looks up what links are made of. Where the deck has no such card at all, this is said once.
+  pure subroutine find_parts(words, list, noun, diagnostics, numbers)
+    type(token_t), intent(in) :: words(:)   !! (links) without a line where the link has none
+    type(name_index_t), intent(in) :: list  !! of the cards
+    character(len=*), intent(in) :: noun    !! material or section
+    type(diagnostics_t), intent(inout) :: diagnostics
+    integer, intent(inout) :: numbers(:)    !! (links) unchanged without a word
+
+    character(len=:), allocatable :: library
+    integer :: i, first
+
+    first = findloc(words%line > 0, .true., dim=1)
+    if (size(list%name) == 0 .and. first > 0) then
+      library = ""
+      if (noun == "material") library = ", or INCLUDE library/materials.inc, which has steel"
+      call add_error(diagnostics, words(first), "there is no "//upper_case(noun)//" card for '"// &
+        words(first)%text//"'; expected: "//pattern_of(upper_case(noun))//library)
+      return
+    end if
+    do i = 1, size(words)
+      if (words(i)%line > 0) call look_up(words(i), list, noun, diagnostics, numbers(i))
+    end do
+  end subroutine find_parts
 
   !> Gives every link its mesh: a card that names the link takes precedence over `MESH *`.
   pure subroutine find_meshes(diagnostics, model)
