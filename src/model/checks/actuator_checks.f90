@@ -1,7 +1,7 @@
 !> Checks of ACTUATE cards: the coordinates that they name, whether they are as many as the drives,
 !! and which reports take them.
 module actuator_checks
-  use diagnostics, only: add_error, add_warning, diagnostics_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use measure_checks, only: refuse_two, seek_coordinate
   use kinds, only: wp
   use models, only: model_t, report_of_masses, word_of_four_bar
@@ -50,7 +50,8 @@ contains
     do i = 1, size(model%reports)
       call check_report(diagnostics, model%actuators(1)%name, model%reports(i))
     end do
-    if (report_of_masses(model) == 0) call add_warning(diagnostics, model%actuators(1)%name, &
+    if (report_of_masses(model) == 0 .and. .not. has_errors(diagnostics)) call &
+      add_warning(diagnostics, model%actuators(1)%name, &
       "ACTUATE is used by reports on forces only, none of which is asked for")
   end subroutine check_actuators
 

@@ -3,7 +3,7 @@
 module balance_checks
   use balance_cards, only: shaft_form
   use body_checks, only: seek_link
-  use diagnostics, only: add_error, add_warning, diagnostics_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use drive_cards, only: drive_ram
   use kinds, only: wp
   use models, only: balances, drives_length, model_t, report_number
@@ -48,8 +48,9 @@ contains
     if (drives_length(model)) call add_error(diagnostics, place, "BALANCE is about a whole "// &
       "turn of the crank at constant speed, and the first DRIVE gives a length", &
       model%drive, "it is driven here")
-    if (report_number(model, "balance") == 0) call add_warning(diagnostics, place, "BALANCE is "// &
-      "used by REPORT balance only, which is not asked for")
+    if (report_number(model, "balance") == 0 .and. .not. has_errors(diagnostics)) call &
+      add_warning(diagnostics, place, "BALANCE is used by REPORT balance only, which is not "// &
+      "asked for")
   end subroutine check_balance
 
   pure subroutine find_links(diagnostics, model)

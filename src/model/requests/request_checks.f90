@@ -2,7 +2,7 @@
 module request_checks
   use card_table, only: card_names, pattern_of
   use cards, only: card_t
-  use diagnostics, only: add_error, add_warning, diagnostics_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use kinds, only: wp
   use models, only: effects_static, has_law, is_loaded, is_moving, model_t, needs_frequencies, &
     needs_positions, needs_response, needs_study, report_number, report_of_masses
@@ -273,13 +273,15 @@ contains
     end do
   end subroutine warn_of_static_loads
 
-  !> A motor has no effect where the crank angle is prescribed, other loads none on kinematics.
+  !> A motor has no effect where the crank angle is prescribed, other loads none on kinematics. Of a
+  !! deck with errors a report may be meant.
   pure subroutine warn_of_idle_motors(diagnostics, model)
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
     integer :: i
 
+    if (has_errors(diagnostics)) return
     if (report_number(model, "motion") == 0 .and. model%motor%keyword%line > 0) then
       if (.not. is_geared(model%motor)) then
         call add_warning(diagnostics, model%motor%keyword, &

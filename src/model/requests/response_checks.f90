@@ -4,7 +4,7 @@ module response_checks
   use body_checks, only: seek_link
   use card_reader, only: has_value, value_of
   use cards, only: card_t
-  use diagnostics, only: add_error, add_warning, diagnostics_t
+  use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
   use errors, only: error_of_writing
   use kinds, only: wp
   use models, only: has_gauge_histories, has_law, inertia_lumped, model_t, needs_response, &
@@ -123,6 +123,8 @@ contains
       "asked for"
     integer :: i
 
+    ! A report may be meant.
+    if (has_errors(diagnostics)) return
     if (report_with(model, "strains") == 0 .and. report_number(model, "transient") == 0) then
       do i = 1, size(model%gauges)
         if (model%gauges(i)%name%line == 0) cycle
@@ -182,7 +184,8 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(model_t), intent(in) :: model
 
-    if (model%ramp <= 0.0_wp .or. report_number(model, "transient") > 0) return
+    if (model%ramp <= 0.0_wp .or. report_number(model, "transient") > 0 .or. &
+      has_errors(diagnostics)) return
     call add_warning(diagnostics, model%ramp_word, &
       "'ramp=' is used by REPORT transient only, which is not asked for")
   end subroutine check_ramp
