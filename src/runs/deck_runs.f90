@@ -574,16 +574,18 @@ contains
     type(session_t), intent(in) :: session
     character(len=:), allocatable :: text
 
-    text = session%log
+    text = findings_log(deck%diagnostics, deck%source, session%findings)
+    if (session%totals%has_frequencies) text = accuracy_summary(session%method, &
+      session%totals%largest_error)//text
     if (session%totals%variants > 1) then
+      if (len(text) == 0) text = "nothing to be told of them"//line_feed
       text = trim(merge("first of          ", "first computed of ", session%logged == 1))//" "// &
         to_string(session%totals%variants)//" variants, "//variant_text(deck%cards, &
-        session%logged)//":"//line_feed//text//"all variants, the last one with "// &
-        variant_text(deck%cards, session%totals%variants)//":"//line_feed
+        session%logged)//":"//line_feed//session%log//"all variants, the last one with "// &
+        variant_text(deck%cards, session%totals%variants)//":"//line_feed//text
+    else
+      text = session%log//text
     end if
-    if (session%totals%has_frequencies) text = text//accuracy_summary(session%method, &
-      session%totals%largest_error)
-    text = text//findings_log(deck%diagnostics, deck%source, session%findings)
   end function log_text
 
 end module deck_runs

@@ -146,7 +146,7 @@ lengths() {
   printf '%s\n' "UNITS mm kg s" "GROUND O 0 0" "GUIDE g 0 0 angle=0" "LINK crank O A length=30 mass=1 inertia=10" \
     "LINK rod A B length=100 mass=1 inertia=10" "SLIDER B g" "BRANCH A left O B" "DRIVE B g" \
     "CRANK 120 150" "REPORT pins" "REPORT motion crank=160 end=1 step=0.1" >"$scratch/pump.deck"
-  run 1 --out "$scratch/out" "$scratch/pump.deck" && says "crank 150 mm: out of reach: 'rod' and 'crank' together are 20 mm too short" &&
-    says "motion, time 0 s, crank 160 mm: out of reach: 'rod' and 'crank' together are 30 mm too short"
+  run 1 --out "$scratch/out" "$scratch/pump.deck" && says "position 150 mm: out of reach: 'rod' and 'crank' together are 20 mm too short" &&
+    says "motion, time 0 s, position 160 mm: out of reach: 'rod' and 'crank' together are 30 mm too short"
 }
 check "positions of a slider are lengths" lengths

@@ -61,12 +61,13 @@ contains
     unit = measure%name
   end function unit_of_crank
 
-  !> `crank`, or in time `time`: what the positions of a deck are.
+  !> `crank`, of lengths `position`, or in time `time`: what the positions of a deck are.
   pure function word_of_positions(model) result(word)
     type(model_t), intent(in) :: model !! as read
     character(len=:), allocatable :: word
 
-    word = trim(merge("time ", "crank", runs_in_time(model)))
+    word = trim(merge("position", "crank   ", drives_length(model)))
+    if (runs_in_time(model)) word = "time"
   end function word_of_positions
 
   !> A position of the first drive: in degrees, of a slider or a ram in the unit of the deck; in

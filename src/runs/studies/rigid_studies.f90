@@ -37,6 +37,10 @@ module rigid_studies
 
   public :: add_rigid_studies, places_of
 
+  !> Harmonics that have not settled are told of by a warning beyond this change; below, by the head
+  !! of their table only [-].
+  real(wp), parameter :: least_warned = 1.0e-8_wp
+
 contains
 
   !> Appends the studies of this file.
@@ -361,7 +365,7 @@ contains
     type(warning_t) :: warning
 
     associate (harmonics => variant%found%harmonics)
-      if (has_settled(harmonics)) return
+      if (has_settled(harmonics) .or. harmonics%change <= least_warned) return
       warning%amount = harmonics%change
       warning%text = "harmonics have not converged: with every second one of "// &
         to_string(harmonics%samples)//" samples they differ by "//to_string(harmonics%change, 2)// &

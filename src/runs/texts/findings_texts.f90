@@ -34,11 +34,20 @@ contains
       trim(failure%stage)
     if (allocated(failure%time)) line = line//", time "//failure%time_words
     if (allocated(failure%speed)) line = line//", "//failure%speed_words
-    if (allocated(failure%crank)) line = line//", crank "//failure%crank_words
+    if (allocated(failure%crank)) line = line//", "//trim(merge("crank   ", "position", &
+      is_angle(failure%crank_words)))//" "//failure%crank_words
     line = line(3:)
     line = line//": "//failure%error%text
     if (len(failure%variant) > 0) line = failure%variant//", "//line
   end function failure_text
+
+  !> Whether a position is an angle, which is always in degrees, by its unit.
+  pure function is_angle(words) result(is)
+    character(len=*), intent(in) :: words !! `45 deg`, `0 to 25 deg, 6 positions`
+    logical :: is
+
+    is = index(words//",", " deg,") > 0
+  end function is_angle
 
   !> Number of the last failure that is like one: at the next positions, for the same reason.
   pure function last_alike(findings, number) result(last)
