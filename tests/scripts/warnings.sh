@@ -41,7 +41,7 @@ meaningless() {
 
 # Links so thin that the loads of their motion bend them by more than their length.
 meaningless_deflection() {
-  beam_deck "CRANK 0" "SPEED 400" "REPORT frequencies" | sed 's/thickness=1.6/thickness=0.1/' >"$scratch/bent.deck"
+  beam_deck "CRANK 0" "SPEED 400 rad/s" "REPORT frequencies" | sed 's/thickness=1.6/thickness=0.1/' >"$scratch/bent.deck"
   run 0 --out "$scratch/out" "$scratch/bent.deck" && says "no link bends so far, and frequencies under these loads mean nothing" || return 1
   grep ' warning: ' "$scratch/stderr" | head -n 1 | grep -q "mean nothing" || { echo "not the first"; return 1; }
   head -n 1 "$scratch/stdout" | grep -q "^bent: WARNING: the inertia loads at speed 400 rad/s"
