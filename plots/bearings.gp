@@ -9,8 +9,8 @@ note = "force on the link at the pin, of a guide on the pin, from the centre to 
 load plots."legend.gp"
 own_style = "lw 3.5 dt solid lc rgb 'black'"
 ground_style = "lw 2.5 dt (12,6) lc rgb '#0060A8'"
-eval entry_line("in the axes of the link: along it to the right, to its left upwards", own_style)
-eval entry_line("in global axes", ground_style)
+eval entry_line("in axes that turn with the link, which points to the right", own_style)
+eval entry_line("in fixed axes", ground_style)
 
 # A joint has a scale of its own: the outer ring is drawn with radius 1.
 array ring_of[tiles]
@@ -23,6 +23,15 @@ do for [k=1:tiles] {
     ring_of[k] = ring*ceil(ring_of[k]/ring - 0.001)
 }
 
+# All in one unit; a pin and its link in two lines, where one is too long.
+largest_ring = 0
+caption_lines = 2
+tile_limit = tiles <= 6 ? 420.0 : 330.0
+do for [k=1:tiles] {
+    largest_ring = larger(largest_ring, ring_of[k])
+    if (text_width(pin_of(k)." on ".link_of(k), 13) > tile_limit) { caption_lines = 3 }
+}
+ring_power = amount_power(largest_ring, unit_fx)
 x0 = -1.12
 x1 = 1.12
 tile_columns = tiles <= 4 ? tiles : tiles <= 6 ? 3 : tiles <= 12 ? 4 : 5
@@ -30,16 +39,14 @@ tile_lines = int(ceil(tiles/(1.0*tile_columns)))
 array line_y0[tile_lines]
 array line_y1[tile_lines]
 do for [line=1:tile_lines] { line_y0[line] = x0; line_y1[line] = x1 }
-tile_limit = tiles <= 6 ? 420.0 : 330.0
-caption_lines = 2
 load plots."tiles.gp"
 
-set multiplot
+eval begin_panels
 do for [k=1:tiles] {
     if (k > 1) { eval clear_page }
     eval tile(k)
-    eval caption(1, k, pin_of(k)." on ".link_of(k))
-    eval caption(2, k, "outer ring ".amount(ring_of[k], unit_fx))
+    do for [line=1:caption_lines - 1] { eval caption(line, k, caption_lines == 2 ? pin_of(k)." on ".link_of(k) : line == 1 ? pin_of(k) : "on ".link_of(k)) }
+    eval caption(caption_lines, k, "outer ring ".amount_in(ring_of[k], ring_power).amount_unit(unit_fx, ring_power))
     do for [ring=1:2] { set object ring circle at 0, 0 size ring/2.0 fs empty border rgb "#C0C0C0" lw 1.5 behind }
     do for [spoke=1:3] {
         set arrow spoke from -cos(spoke*pi/4), -sin(spoke*pi/4) to cos(spoke*pi/4), sin(spoke*pi/4) nohead lw 1 lc rgb "#D8D8D8" back
@@ -51,4 +58,4 @@ do for [k=1:tiles] {
         sprintf("$ground_%d %s every ::0::0 with points pt 7 ps 1.3 lc rgb '#0060A8' notitle, ", k, scaled).\
         sprintf("$own_%d %s every ::0::0 with points pt 7 ps 1.5 lc rgb 'black' notitle", k, scaled)
 }
-unset multiplot
+eval end_panels

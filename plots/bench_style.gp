@@ -1,5 +1,6 @@
 # What the figures of `make bench` share: every solver has one line in all of them. Loaded after style.gp.
 
+text_mode = "enhanced"                              # powers of ten at their axes
 solvers = "dsygv dsygvx band deformation sweep accuracy"
 heading_of(k) = word("dsygv dsygvx band deformation sweep accuracy=", k + 0)
 line_of(k) = int(word("7 3 4 5 2 1", k + 0))

@@ -18,7 +18,8 @@ slowest = larger(speed_low, 1e-3*speed_high)
 lines = int(lesser(60, floor(greatest/(factor*slowest))))
 headline = numbered(figure, "Campbell diagram: frequencies against the speed of the crank")
 has_critical = critical ne "" && answer(critical, "distinct line") ne "" ? 1 : 0
-note = has_critical ? "circles: critical speeds, larger where a turn excites more (decades)" : ""
+note = "bands: frozen linkage over a turn, lines: means, marks: Floquet frequencies"
+if (has_critical) { remark = "circles: critical speeds, larger where a turn excites more (decades)".(remark eq "" ? "" : "; ".remark) }
 # Speeds at which vibrations grow by themselves, two words each: intervals, or half way to the neighbours of a speed of the table.
 sizes = "s = $1 < 0 ? -$1 : $1 + 0"
 grown = intervals ne "" ? system("awk ".quoted("!/^#/ && NF { a = $1 < 0 ? -$1 : $1; b = $2 < 0 ? -$2 : $2; print a + 0, b + 0 }")." ".\
@@ -41,10 +42,10 @@ if (has_critical) {
 }
 size_of(x) = 1.4 + 1.3*log10(x/least_excited)
 
-name_of(k) = sprintf("mode %d over a turn", k)
+name_of(k) = sprintf("mode %d", k)
 of_unstable = "unstable speeds"
 longest = larger(text_width(of_unstable, 20), text_width(name_of(modes), 20))
-entries = 3*modes + 1 + (has_critical > 0) + (unstable > 0)
+entries = modes + 1 + (has_critical > 0) + (unstable > 0)
 eval page_of_one(entries, longest, "frequency", "Hz", 0, greatest)
 set yrange [0:top]
 eval sprintf("set ytics (%s)", ticks_between(0, top, value_step(0, greatest, plot_height), 0))
@@ -57,6 +58,7 @@ eval abscissa_between(speed_low, speed_high, abscissa_step(speed_low, speed_high
 set xlabel abscissa_title("crank speed ω₂", unit_speed, speed_low, speed_high)
 unset grid
 
+measured_frequencies = measured(1, "|speed|", unit_speed, "|frequency|mean|floquet|", "Hz")
 tint(k) = word("#B9B9B9 #A9C7E4 #F0C3A5 #A5D6C6 #D3BDE0 #CFCFCF #E6D3A0 #E3B0C4", 1 + (k - 1)%8)
 mark(k) = int(word("7 9 5 13 11 15 6 8", 1 + (k - 1)%8))
 
@@ -94,9 +96,7 @@ plot for [k=1:modes] of_mode(k) using (abs(field("speed"))):(field("least")):(fi
     for [k=1:modes] of_mode(k) using (abs(field("speed"))):(field("floquet")) with points pt mark(k) ps 1.1 lc rgb ink_of(k) notitle, \
     marks using (abs(column(c_speed))):(column(c_frequency)):(size_of(column(c_excitation))) \
         with points pt 6 lw 2.5 ps variable lc rgb "#C00000" notitle, \
-    for [k=1:modes] keyentry with filledcurves fs solid 0.5 fc rgb tint(k) title name_of(k), \
-    for [k=1:modes] keyentry with lines lw 2.5 lc rgb ink_of(k) dt solid title sprintf("mode %d, mean", k), \
-    for [k=1:modes] keyentry with points pt mark(k) ps 1.4 lc rgb ink_of(k) title sprintf("mode %d, Floquet", k), \
+    for [k=1:modes] keyentry with linespoints lw 2.5 pt mark(k) ps 1.4 lc rgb ink_of(k) dt solid title name_of(k), \
     for [k=1:1] keyentry with lines lw 1.2 lc rgb "#8C8C8C" dt (9,5) title "n × speed", \
     for [k=1:has_critical] keyentry with points pt 6 lw 2.5 ps 2 lc rgb "#C00000" title "critical speed", \
-    for [k=1:unstable > 0] keyentry with boxes fs transparent pattern 4 fc rgb "#B06080" title of_unstable
+    for [k=1:unstable > 0] keyentry with boxes fs transparent pattern 4 fc rgb "#B06080" title of_unstable @measured_frequencies

@@ -27,11 +27,11 @@ eval entry_line("elastic links", bent_look)
 do for [p=1:points] { eval entry_point(short_name(point_names, p), sprintf("pt 7 ps 2 lc rgb '%s'", point_ink(p))) }
 load plots."tiles.gp"
 eval fixed_pivots(size)
-set multiplot
+eval begin_panels
 do for [k=1:tiles] {
     if (k > 1) { eval clear_page }
     eval tile(k)
     eval caption(1, k, sprintf("θ₂ = %.5g°", word($moved[k], 1) + 0))
     eval "plot ".deformed_linkage($poses[k], $moved[k])."NaN notitle"
 }
-unset multiplot
+eval end_panels

@@ -13,17 +13,27 @@ place_of(k) = minus(sprintf("%.4g", word($rests[k], 1) + 0)).(unit_crank eq "deg
 do for [k=1:|$rests|] { verdicts = verdicts." ".word($rests[k], 2) }
 listed_as(kind, text) = strstrt(verdicts, " ".kind) == 0 ? "" : text.of_kind(1, kind)[3:*]
 note = |$rests| == 0 ? "it rests nowhere" : words(verdicts) > 10 ? "frequencies of small oscillations about stable rests: equilibrium.dat" \
-    : listed_as("stable", "stable, with the frequency of small oscillations: ")
+    : listed_as("stable", strstrt(of_kind(1, "stable"), " with ") > 0 ? "stable, with the frequency of small oscillations: " : "stable: ")
 if (words(verdicts) <= 10 && strstrt(verdicts, " unstable") > 0) {
     remark = listed_as("unstable", "unstable: ").(remark eq "" ? "" : "; ".remark)
 }
+# Wells that are shallow beside the whole range fill a panel of their own.
+rest_low = 1e300
+rest_high = -1e300
+do for [k=1:|$rests|] { rest_low = lesser(rest_low, word($rests[k], 3) + 0.0); rest_high = larger(rest_high, word($rests[k], 3) + 0.0) }
+depth = larger(rest_high - rest_low, low_potential <= rest_low ? rest_low - low_potential : 0)
+shallow = |$rests| > 1 && depth > 0 && depth < 0.02*(high_potential - low_potential)
+shown_low(panel) = shallow && panel == 3 ? rest_low - 0.5*depth : NaN
+shown_high(panel) = shallow && panel == 3 ? rest_high + 2*depth : NaN
 # What is only rounding is nothing.
 nothing = larger(abs(low_torque), abs(high_torque)) < 1e-12*larger(abs(low_potential), abs(high_potential))
 added = panel_of("potential", unit_potential, fields("potential"), "'it rests everywhere'")
 added = panel_of(unit_crank eq "deg" ? "torque to hold it" : "force to hold it", unit_torque, nothing ? "0" : fields("torque"), "torque")
 
+if (shallow) { added = panel_of("potential near the rests", unit_potential, fields("potential"), "potential") }
+
 # Between two rows of this word it rests everywhere.
-height(panel) = panel == 1 ? "3" : "(0)"
+height(panel) = panel == 2 ? "(0)" : "3"
 is_rest(word_of) = sprintf("(strcol(2) eq '%s' ? $1 : NaN)", word_of)
 rests_with(word_of, panel, look) = sprintf("$rests using %s:%s with %s notitle, ", is_rest(word_of), height(panel), look)
 stable_look = "points pt 7 ps 2.6 lc rgb '#007A5A'"

@@ -55,9 +55,12 @@ energy_base(low, high) = high - low > 0.25*larger(abs(low), abs(high)) ? 0.0 : l
 energy_curve(name) = energy_base(value("low_".name), value("high_".name)) == 0 ? fields(name) \
     : sprintf(" (field('%s')-(%.17g))", name, value("low_".name))
 energy_title(name) = energy_base(value("low_".name), value("high_".name)) == 0 ? " ".name : sprintf(" '%s %s %s %s'", name, \
-    value("low_".name) > 0 ? "−" : "+", energy_text(abs(value("low_".name))), typeset(value("unit_".name)))
+    value("low_".name) > 0 ? "less" : "plus", energy_text(abs(value("low_".name))), typeset(value("unit_".name)))
 energy_text(size) = size < 1e4 || size > 1e9 ? sprintf("%.4g", size) : sprintf("%.0f", size)
 
+# Many curves take higher panels, where the page has room.
+height_for(list, n) = words(list) < 5 || sized ? (n == 1 ? 700 : n == 2 ? 400 : 330) : 500
+if (kind eq "link_motion" || kind eq "pin_motion") { height_of(n) = height_for(names, n) }
 if (kind eq "link_motion") {
     headline = "Motion of the links, ".moment
     eval rows_of("link theta")
@@ -100,18 +103,18 @@ if (kind eq "reactions") {
             unlike = pin_max > 1e-9
         }
         forces[k] = forces[k]." ".size(one).(unlike ? " ".size(another) : "")
-        titles[k] = titles[k].(unlike ? sprintf(" '%s on link %s' '%s on link %s'", one[1:1], one[2:2], another[1:1], another[2:2]) \
-            : sprintf(" '%s'", another eq "" ? one : one[1:1]))
+        titles[k] = titles[k].(unlike ? sprintf(" \"%s on link %s\" \"%s on link %s\"", \
+                pin_named(one[1:1]), one[2:2], pin_named(another[1:1]), another[2:2]) : sprintf(" \"%s\"", pin_named(another eq "" ? one : one[1:1])))
     }
-    added = panel_of("force at O2, A", unit_O2x, forces[1], titles[1])
-    added = panel_of("force at B, O4", unit_O2x, forces[2], titles[2])
+    added = panel_of("force at ".pin_named("O2").", ".pin_named("A"), unit_O2x, forces[1], titles[1])
+    added = panel_of("force at ".pin_named("B").", ".pin_named("O4"), unit_O2x, forces[2], titles[2])
     added = panel_of("driving torque", unit_torque, fields("torque"), "torque")
 }
 
 # Joints without a force of their own are left out; six in a panel at most, as many in all.
 if (kind eq "joint_forces") {
     eval rows_of("pin:link")
-    joints_found = words_in(table, "joints ".asked_speed)
+    joints_found = words_in(table, "joints ".asked_speed.system("sed -n 's/^GROUND *\\([^ ]*\\).*/ \\1/p' echo.deck 2> /dev/null | tr -d '\n'"))
     names = ""
     do for [joint in joints_found] { names = names." ".quoted_twice(word(joint, 2)) }
     headline = "Forces in the joints, ".moment
@@ -134,7 +137,9 @@ if (kind eq "lagrange") {
     terms = "torque"
     do for [name in "V gravity load"] { if (value("low_".name) != 0 || value("high_".name) != 0) { terms = terms." ".name } }
     added = panel_of("reduced inertia M", unit_M, fields("M"), "M")
-    added = panel_of("torque", unit_torque, fields(terms), terms)
+    shown = ""
+    do for [name in terms] { shown = shown.(name eq "V" ? " 'V, by speed'" : " ".name) }
+    added = panel_of("torque", unit_torque, fields(terms), shown)
     added = panel_of("energy", unit_kinetic, energy_curve("kinetic").energy_curve("potential"), energy_title("kinetic").energy_title("potential"))
 }
 if (kind eq "balance") {
@@ -152,9 +157,9 @@ if (kind eq "drive_forces") {
     eval rows_of("drive")
     added = panel_of(unit_force eq "see_head" ? "torque or force" : is_length ? "driving force" : "driving torque", \
         unit_force eq "see_head" ? "" : unit_force, each("field('force')"), shown)
-    headline = (is_length ? "Driving force" : "Driving torque").(other eq "" ? "" : " and shaking force").", ".moment
+    when_planned = "headline = (is_length ? 'Driving force' : 'Driving torque').(declared > 1 && is_drawn(2) ? ' and shaking force' : '').', '.moment; ".\
+        "note = declared > 1 && is_drawn(2) ? 'shaking force: resultant of −m a of all links' : ''"
     if (other ne "") {
-        note = "shaking force: resultant of −m a of all links"
         eval answer(other, "facts")
         source_of(k) = panel == 1 ? sprintf("$rows%d", k) : other
         picked = "same(field('speed'),speed)"
@@ -290,6 +295,13 @@ if (kind eq "validity") {
     added = panel_of("load / buckling load", "%", each("100*field('load')"), shown)
     added = panel_of("quadratic terms", "%", each("(strcol(col_quadratic)eq'-'?0:100*abs(field('quadratic')))"), shown)
     added = panel_of("distance |1 − ρ|", "", fields("distance"), "distance")
+    # The same links in three panels, whose legend is beside the first, with the line; the distance is not between its speeds what it is at them.
+    least_entries = 99
+    pen_of(k) = panel == 4 ? 6 : k
+    line_of(panel) = panel == 4 ? "dots" : "lines"
+    legend_from(k) = k > words(names) ? "" : sprintf(", keyentry with linespoints lt %d title word(shown, %d)", k, k).legend_from(k + 1)
+    key_longest = text_width("1 %, a limit", 20)
+    keys_of(panel) = panel > 1 ? "" : legend_from(1).", keyentry with lines lw 2.5 lc rgb '#A01850' dt solid title '1 %, a limit'"
 }
 
 # Angles of a four-bar do not depend on the speed; their rates have a panel a link and a curve a speed.
@@ -357,8 +369,8 @@ if (kind eq "errors") {
     errors_from(k) = k > words(drawn) ? "" : sprintf(" above_zero(field('%s'))", word(drawn, k)).errors_from(k + 1)
     added = panel_of("estimated relative error", "", errors_from(1), shown)
     is_logarithmic(panel) = 1
-    before_panel(panel) = "set yrange [10.0**bottom:10.0**top]; set format y '10^{%T}'; ".\
-        "set ytics 10.0**ceil((top - bottom)/12.0); set mytics top - bottom <= 12 ? 10 : 1"
+    before_panel(panel) = sprintf("set yrange [%g:%g]; set ytics (%s)", 10.0**bottom, 10.0**top, \
+        log_ticks(1.3*10.0**bottom, 10.0**top/1.3, panel_height))
     tick_room_of(panel) = 80
     height_of(n) = 875 - lower
     pen_of(k) = int(word(drawn, k)[6:*])
@@ -369,7 +381,6 @@ if (kind eq "errors") {
 if (declared == 0) { load plots.kind.".gp" }
 if (declared > 0) {
     panels = declared
-    headline = numbered(figure, headline)
     call plots."panels.gp"
 }
 eval close

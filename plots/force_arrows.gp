@@ -14,10 +14,12 @@ pin_ink = "#0060A8"
 shaking_ink = "#C04000"
 force_at(row, k) = word(row, 2*k) + {0, 1}*word(row, 2*k + 1)
 tail_at(place, k) = k == 1 ? O2 : k == 4 ? O4 : k == 5 ? 0.5*(O2 + O4) : word(place, 2*k - 2) + {0, 1}*word(place, 2*k - 1)
-note = "forces on the crank at O2, on the coupler at A and B, on the follower at O4"
+pin_drawn_as(k) = pin_named(word("O2 A B O4", k)) eq word("O2 A B O4", k) ? word("O₂ A B O₄", k) : pin_named(word("O2 A B O4", k))
+note = sprintf("forces on the crank at %s, on the coupler at %s and %s, on the follower at %s", \
+    pin_named("O2"), pin_named("A"), pin_named("B"), pin_named("O4"))
 greatest_shaking = 0
 do for [row_drawn=1:|$forces|] { greatest_shaking = larger(greatest_shaking, abs(force_at($forces[row_drawn], 5))) }
-if (greatest_shaking > 0) { remark = "shaking force: resultant of the inertia forces, drawn midway between O2 and O4".(remark eq "" ? "" : "; ".remark) }
+if (greatest_shaking > 0) { remark = "shaking force: resultant of the inertia forces, drawn midway between ".pin_named("O2")." and ".pin_named("O4").(remark eq "" ? "" : "; ".remark) }
 
 # The longest arrow takes half of the drawing's larger side; arrows of nearly nothing are left out. The extent takes in all.
 arrow_share = 0.5
@@ -46,8 +48,7 @@ print_way(p, q) = sprintf("curve\ncurve %.6g %.6g\ncurve %.6g %.6g\n", pixel*rea
 print_ways(k, place, row) = k > 5 ? "" : print_way(tail_at(place, k), tail_at(place, k) + scale*force_at(row, k)).\
     print_ways(k + 1, place, row)
 print_name(k, place) = sprintf("label %.6g %.6g 16 %.4g %.4g %d %s\n", pixel*real(tail_at(place, k)), pixel*imag(tail_at(place, k)), \
-    text_width("O2", 15), text_height(15), \
-    word("135 90 90 45", k) + 0, word("O₂ A B O₄", k))
+    text_width(pin_drawn_as(k), 15), text_height(15), word("135 90 90 45", k) + 0, pin_drawn_as(k))
 print_ground(z) = sprintf("box %.6g %.6g %.6g %.6g\n", pixel*real(z), pixel*(imag(z) - 0.7*size), pixel*1.6*size, pixel*1.3*size)
 print_hooks(k) = k > hooks ? "" : sprintf("box %.6g %.6g %.6g %.6g\n", pixel*hook_x[k], pixel*hook_y[k], pixel*1.6*size, pixel*2.4*size).\
     print_hooks(k + 1)

@@ -26,7 +26,7 @@ do for [k=1:tiles] {
 headline = numbered(figure, sprintf("Forces at the pins, %s", moment))
 load plots."legend.gp"
 tallest = larger(line_y1[1] - line_y0[1], tile_columns < tiles ? line_y1[2] - line_y0[2] : 0)
-pixel = lesser(lesser(tile_limit, (1720.0 - lead_room)/tile_columns)/(x1 - x0), 1.25*tile_limit/tallest)
+pixel = lesser(lesser(tile_limit, (1540.0 - lead_room)/tile_columns - 20)/(x1 - x0), 1.25*tile_limit/tallest)
 eval entries_of_forces
 load plots."tiles.gp"
 eval fixed_pivots(size).ground_hooks(size)
@@ -34,7 +34,7 @@ set print places
 print pins_to_name($places[1], $forces[1])
 unset print
 load labels_as("names")
-set multiplot
+eval begin_panels
 do for [k=1:tiles] {
     if (k > 1) { eval clear_page }
     eval tile(k)
@@ -43,4 +43,4 @@ do for [k=1:tiles] {
     names_part = k > 1 ? "" : "$names using ($1/pixel):($2/pixel):(strcol(6)) with labels noenhanced font point_size(15) notitle, "
     eval "plot ".pale_mechanism($places[k]).names_part."NaN notitle"
 }
-unset multiplot
+eval end_panels

@@ -3,18 +3,24 @@
 
 mode = other + 0
 name = "f".other
-names = answer(table, "distinct speed")
-reference = word(names, 1) + 0
+all_names = answer(table, "distinct speed")
+reference = word(all_names, 1) + 0
+do for [one in all_names] { if (one + 0 == 0) { reference = 0 } }
+# Eight of them at most, from the first to the last.
+drawn_speeds = int(lesser(8, words(all_names)))
+chosen(k) = 1 + (drawn_speeds < 2 ? 0 : int((k - 1)*(words(all_names) - 1)/(drawn_speeds - 1.0) + 0.5))
+names = ""
+do for [k=1:drawn_speeds] { names = names." ".word(all_names, chosen(k)) }
 shown = ""
 do for [one in names] {
-    if (one + 0 == 0) { reference = 0 }
     shown = shown.sprintf(" '%.5g %s'", one + 0, typeset(unit_speed))
 }
 headline = capital(ordinal(mode))." natural frequency ".against_position(unit_crank)
 note = value("low_".name) < 0 ? divergence."; it has no change in percent" : ""
+if (drawn_speeds < words(all_names)) { remark = sprintf("%d of %d speeds", drawn_speeds, words(all_names)).(remark eq "" ? "" : "; ".remark) }
 load keep("rows", table, "rows all speed")
 load keep("changes", table, sprintf("change %s %.12g", name, reference))
-source_of(k) = panel == 1 ? sprintf("$rows%d", k) : "$changes"
+source_of(k) = panel == 1 ? sprintf("$rows%d", chosen(k)) : "$changes"
 x = "(panel == 1 ? field('crank') : $2)"
 changed(k) = same(column(1), word(names, k) + 0) && column(1) != reference ? column(3) : NaN
 changes_from(k) = k > words(names) ? "" : sprintf(" changed(%d)", k).changes_from(k + 1)

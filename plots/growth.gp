@@ -18,7 +18,7 @@ if (has_intervals) {
 } else { rows = ""; number = 0 }
 if (high_growth_all <= 0) { high_growth_all = 0.01 }
 headline = numbered(figure, "Growth of free vibrations in a turn of the crank")
-note = has_intervals ? "filled: intervals of instability, from edge to edge, as high as their largest growth" \
+note = has_intervals ? "filled: intervals of instability, from edge to edge, as high as their largest growth, with their modes; marks: single speeds" \
     : high_growth > 1e-9 ? "" : "no vibration grows at any of these speeds"
 kinds = "flip fold combination"
 names = "\"flip (ρ = −1)\" \"fold (ρ = 1)\" combination"
@@ -36,7 +36,9 @@ set trange [0:pi]
 set samples 121
 set style fill transparent solid 0.45 border
 middle(j) = 0.5*(word(rows, 6*j - 5) + word(rows, 6*j - 4))
-half(j) = 0.5*abs(word(rows, 6*j - 4) - word(rows, 6*j - 5))
+# No needle is thinner than can be seen.
+pixel_of_speed = (abscissa_high(speed_a, speed_b) - abscissa_low(speed_a, speed_b))/plot_width
+half(j) = larger(1.5*pixel_of_speed, 0.5*abs(word(rows, 6*j - 4) - word(rows, 6*j - 5)))
 peak(j) = word(rows, 6*j - 1) + 0.0
 kind_of(j) = word(rows, 6*j - 3) eq "flip" ? 1 : word(rows, 6*j - 3) eq "fold" ? 2 : 3
 # Of a plot without a curve gnuplot 5.4 evaluates what is behind its loop all the same.
@@ -44,17 +46,32 @@ set table $ARCS
 if (number > 0) { plot for [j=1:number] middle(j) + half(j)*cos(t), peak(j)*sin(t) } else { plot NaN, NaN }
 unset table
 unset parametric
-# Modes that meet stand above the higher intervals that have room.
-last_label = -1e300
-room = 1.0*abs(speed_b - speed_a)/plot_width
+# Modes that meet stand at the intervals, clear of these and of each other.
+high_drawn = value_top(0, high_growth_all)
+place_of(speed) = plot_left + (speed - abscissa_low(speed_a, speed_b))/pixel_of_speed
+height_of(growth) = lower + plot_height*growth/high_drawn
+load plots."drawing.gp"
+set print places
+print sprintf("page %g %g %g %g", plot_left + 4, plot_left + plot_width - 4, lower + 4, lower + plot_height - 4)
+do for [j=1:number] {
+    do for [way=0:20] { print sprintf("%s %.6g %.6g", "curve", place_of(middle(j) + half(j)*cos(pi*way/20)), height_of(peak(j)*sin(pi*way/20))) }
+    print "curve"
+}
 do for [j=1:number] {
     text = word(rows, 6*j - 2)
-    wide = text_width(text, 15)*room
-    higher = sum [k=1:number] (k != j && peak(k) > peak(j) && abs(middle(k) - middle(j)) < 0.5*wide + half(k))
-    if (peak(j) < 0.12*high_growth_all || middle(j) - 0.5*wide < last_label || higher > 0) { continue }
-    last_label = middle(j) + 0.55*wide
-    eval sprintf("set label %d '%s' at first %.12g, %.12g center offset 0, 0.6 noenhanced font ',15' tc rgb '%s'", \
-        1000 + j, text, middle(j), peak(j), fill(kind_of(j)))
+    if (peak(j) > 0.01*high_growth_all) {
+        print sprintf("label %.6g %.6g 5 %.4g %.4g 90 %s", place_of(middle(j)), height_of(peak(j)), text_width(text, 15), text_height(15), text)
+    }
+}
+unset print
+load labels_as("numbers")
+do for [j=1:|$numbers|] {
+    row = $numbers[j]
+    set label 1000 + j word(row, 6) at screen across(word(row, 1) + 0.0), up(word(row, 2) + 0.0) center font ",15" front
+    if (word(row, 5) eq "1") {
+        eval sprintf("set arrow %d from screen %.6f, %.6f to screen %.6f, %.6f nohead lw 1 lc rgb '#808080'", 1000 + j, \
+            across(word(row, 7) + 0.0), up(word(row, 8) + 0.0), across(word(row, 3) + 0.0), up(word(row, 4) + 0.0))
+    }
 }
 of_mode(k) = has_points ? rows_if(table, is_at("mode", sprintf("%d", k))) : "< echo NaN"
 mark(k) = int(word("7 9 5 13 11 15 6 8", 1 + (k - 1)%8))

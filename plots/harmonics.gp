@@ -21,7 +21,9 @@ amplitudes(quantity) = "< awk ".quoted(sprintf("$%d == \"%s\" && ($%d - %s)^2 <=
     sprintf("{ for (i = 1; i <= %d; i++) amplitude[$%d, i] = $(%d + i) } ", harmonics, col_linkage, col_h1 - 1).\
     sprintf("END { for (i = 1; i <= %d; i++) printf \"%%d %%.17g %%.17g\\n\", i, amplitude[\"%s\", i], amplitude[\"%s\", i] }", \
         harmonics, word(linkages, 1), word(linkages, words(linkages))))." ".quoted(table)
-quantities = answer(table, "distinct quantity")
+# The magnitude of the shaking force is no harmonic motion of anything: its components are drawn.
+quantities = ""
+do for [name in answer(table, "distinct quantity")] { if (name ne "shaking_force") { quantities = quantities." ".name } }
 source_of(k) = amplitudes(word(quantities, panel))
 picked = "1"
 x = "$1"
@@ -30,12 +32,13 @@ do for [name in quantities] {
 }
 height_of(n) = 235
 has_curves = 0
-least_entries = 3
+least_entries = 99
 also_shown(panel) = 0
 bar(k, away, shade) = sprintf("source_of(%d) using ($1 + %g):%d with boxes lt 1 lw 1 fc rgb '%s'", k, away, k + 1, shade)
-title_in(panel, k) = panel > int(word(kept, 1)) ? " notitle" : sprintf(" title word(linkages, %d)", k)
 parts_above(panel) = (words(linkages) == 1 ? bar(1, 0, "#303030")." notitle, " \
-    : bar(1, -0.19, "#303030").title_in(panel, 1).", ".bar(2, 0.19, "#8FB8DE").title_in(panel, 2).", ")
+    : bar(1, -0.19, "#303030")." notitle, ".bar(2, 0.19, "#8FB8DE")." notitle, ")
+key_entry(k, shade) = sprintf(", keyentry with boxes lt 1 lw 1 fc rgb '%s' title word(linkages, %d)", shade, k)
+keys_of(panel) = words(linkages) == 1 || panel > int(word(kept, 1)) ? "" : key_entry(1, "#303030").key_entry(2, "#8FB8DE")
 x_axis = "set xrange [0.4:harmonics + 0.6]; set xtics 1; set xlabel 'harmonic k'"
 set style fill solid 1 border rgb ink
 set boxwidth 0.36

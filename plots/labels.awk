@@ -60,7 +60,7 @@ function place_label(k,    far, i, angle, x, y, cost, best, best_x, best_y, best
             angle = i * turn / 24
             x = at_x[k] + cos(angle) * (distance[k] * (1 + 0.8 * far) + width[k] / 2)
             y = at_y[k] + sin(angle) * (distance[k] * (1 + 0.8 * far) + height[k] / 2)
-            cost = cost_of(x, y, width[k] + 6, height[k] + 2) + 12 * far - 4 * cos(angle - lean[k])
+            cost = cost_of(x, y, width[k] + 14, height[k] + 2) + 12 * far - 4 * cos(angle - lean[k])
             if (cost < best) { best = cost; best_x = x; best_y = y; best_far = far }
         }
     }

@@ -16,14 +16,15 @@ other(k) = turning ? 1 + first_of + apart*(first_of + apart*(k - 1) < shown - 1 
 room = 0.06*span
 x0 = x_min - room; x1 = x_max + room; y0 = y_min - room; y1 = y_max + room
 
-headline = numbered(figure, "The linkage over its cycle, in full: ".at_drive(pose_crank[shown]))
+headline = numbered(figure, "The linkage over its cycle")
 pale_positions = ""
 do for [k=1:others] {
     if (pose_found[other(k)]) {
         pale_positions = pale_positions.(pale_positions eq "" ? "" : ", ").minus(sprintf("%.5g", pose_crank[other(k)]))
     }
 }
-note = pale_positions eq "" ? "" : sprintf("pale: %s %s%s", drive_at, pale_positions, is_angle ? "°" : " ".unit_crank)
+note = "in full: ".at_drive(pose_crank[shown]).(pale_positions eq "" ? "" \
+    : sprintf("; pale: %s %s%s", drive_at, pale_positions, is_angle ? "°" : " ".unit_crank))
 load plots."legend.gp"
 do for [k=1:drawn_links] { eval entry_line(short_name(link_names, k), sprintf("lw 11 dt solid lc rgb '%s'", link_ink[k])) }
 do for [k=1:paths] {
@@ -63,6 +64,9 @@ do for [k=1:springs] {
 unset print
 load labels_as("names")
 
+# Names stand out from pale links.
+set style textbox opaque margins 0.15, 0.15 fillcolor rgb "#60FFFFFF" noborder
+
 # A line to a name begins at the rim of its pin.
 rim_share(x, y, to_x, to_y) = lesser(1, 0.75*bar*pixel/larger(0.01, sqrt((to_x - x)**2 + (to_y - y)**2)))
 parts = ""
@@ -71,4 +75,4 @@ parts = parts.fixed_parts.thin_paths(1).bodies(shown).drawn_paths(1).pins_of(sho
 eval "plot ".parts."$names using (rim = rim_share($3, $4, $7, $8), $5 == 1 ? unscaled_x($3 + rim*($7 - $3)) : NaN):(unscaled_y($4 + rim*($8 - $4))):".\
     "((1 - rim)*($7 - $3)/pixel):((1 - rim)*($8 - $4)/pixel) ".\
     "with vectors nohead lw 1 dt solid lc rgb '#808080' notitle, ".\
-    "$names using (unscaled_x($1)):(unscaled_y($2)):(strcol(6)) with labels noenhanced font point_size(17) notitle"
+    "$names using (unscaled_x($1)):(unscaled_y($2)):(strcol(6)) with labels boxed font point_size(17) notitle"

@@ -84,9 +84,9 @@ do for [k=1:|$arrows|] {
 do for [k=1:|$masses|] {
     row = $masses[k]
     if (words(row) > 1 && row_shown(row, 0.09)) {
-        print sprintf("label %.6g %.6g 18 %.6g %.6g %.4g m_{%d}", page_x(number_in(row, 2)), page_y(number_in(row, 3)), \
+        print sprintf("label %.6g %.6g 18 %.6g %.6g %.4g m%s", page_x(number_in(row, 2)), page_y(number_in(row, 3)), \
             text_width("m", 19) + text_width(word(row, 1), 15), text_height(19), \
-            180/pi*arg(number_in(row, 10) + {0, 1}*number_in(row, 11)), number_in(row, 1))
+            180/pi*arg(number_in(row, 10) + {0, 1}*number_in(row, 11)), lowered(word(row, 1)))
     }
 }
 unset print
@@ -99,4 +99,4 @@ plot nodes using 2:3 with lines lw 5 lc rgb "#707070" dt solid notitle, \
     nodes using ($6 == 0 || $6 == $7 ? $2 : NaN):3 with points pt 6 ps 3.4 lw 2.5 lc rgb ink notitle, \
     $masses using 2:3 with points pt 7 ps 1.9 lc rgb ink notitle, \
     @pinmass_part \
-    $numbers using (unscaled_x($1)):(unscaled_y($2)):(strcol(6)) with labels enhanced font point_size(19) notitle
+    $numbers using (unscaled_x($1)):(unscaled_y($2)):(strcol(6)) with labels font point_size(19) notitle

@@ -74,7 +74,7 @@ load plots."tiles.gp"
 
 position(crank) = of_cycle ? at_crank(crank) : sprintf("θ₂ = %.5g°", crank)
 
-set multiplot
+eval begin_panels
 do for [k=1:tiles] {
     if (k > 1) { eval clear_page }
     eval tile(k)
@@ -114,4 +114,4 @@ do for [k=1:tiles] {
         shapes_file index number using (pin($1 + $3)):($2 + $4) with points pt 7 ps 1.3 lc rgb "white" notitle, \
         shapes_file index number using (pin($1 + $3)):($2 + $4) with points pt 6 ps 1.3 lw 2 lc rgb ink notitle
 }
-unset multiplot
+eval end_panels

@@ -20,6 +20,22 @@ titles_by(kind, unit, k) = k > words(coordinates) ? "" : (own_unit(kind, k) ne u
 
 # Behind a gear the torque is not that of the motor, which has a panel of its own if the table has it.
 geared = system("grep -c '^# *torque: of the motor.* behind its gear' ".quoted(table)) + 0
+# A start from rest may need in its first instant many times what it needs later.
+first_torque = exists("col_torque") ? system("awk ".quoted(sprintf("!/^#/ && NF { print $%d; exit }", col_torque))." ".quoted(table)) + 0.0 : 0
+later = system("awk ".quoted(sprintf("!/^#/ && NF && n++ { if (n == 2 || $%d < a) a = $%d; if (n == 2 || $%d > b) b = $%d } END { print a + 0, b + 0 }", \
+    col_torque, col_torque, col_torque, col_torque))." ".quoted(table))
+later_low = word(later, 1) + 0.0
+later_high = word(later, 2) + 0.0
+later_range = larger(later_high, 0) - lesser(later_low, 0)
+cut_high = later_range > 0 && first_torque > later_high + 2*later_range
+cut_low = later_range > 0 && first_torque < later_low - 2*later_range
+is_torque(panel) = curves_of[panel] eq fields("torque")
+shown_high(panel) = cut_high && is_torque(panel) ? larger(later_high, 0) + 0.05*later_range : NaN
+shown_low(panel) = cut_low && is_torque(panel) ? lesser(later_low, 0) - 0.05*later_range : NaN
+if (cut_high || cut_low) {
+    remark = sprintf("at the start: %.4g %s, beyond the axis", first_torque, typeset(!mixed ? unit_torque : \
+        system("sed -n 's/^# *torque: of the motor on the first drive in \\([^;,]*\\)[;,].*/\\1/p' ".quoted(table)))).(remark eq "" ? "" : "; ".remark)
+}
 torque_panel(what, unit) = !geared ? panel_of("motor ".what, unit, fields("torque"), "motor") \
     : panel_of(what." behind gear", unit, fields("torque"), "'on the drive'") + (exists("unit_motor_torque") \
     ? panel_of(what." of the motor", mixed ? unit : unit_motor_torque, fields("motor_torque"), "'before its gear'") : 0)

@@ -26,6 +26,8 @@ set yzeroaxis lt 1 lw 2 dt solid
 set label 905 axis_unit("displacement y", unit_uy)
 set xlabel axis_unit("displacement x", unit_ux) noenhanced
 positions = rows/words(answer(table, "distinct speed"))/words(names_in(table, "point"))
-plot for [k=1:n] moved_of(k) using (field("ux")):(field("uy")) with lines lt k lw line_width(positions), \
+path_of(k) = moved_of(k)." | awk ".quoted(sprintf("{ if (NF == 0) block++; else print block + 0, $%d, $%d, $%d }", col_crank, col_ux, col_uy)).\
+    " | awk -f ".quoted(plots."smooth.awk")
+plot for [k=1:n] path_of(k) using 2:3 with lines lt k lw line_width(positions), \
     for [k=1:n] moved_of(k) using (field("ux")):(field("uy")) with points lt k pt 7 ps dot_size(positions), \
     for [k=1:n] moved_of(k) using (field("ux")):(field("uy")) every ::0::0 with points lt k pt 6 ps 2.5 lw 3

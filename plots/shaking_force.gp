@@ -5,6 +5,7 @@ of_frame = strstrt(" ".columns." ", " frame_x ") > 0
 balanced = of_frame || strstrt(" ".columns." ", " balanced_x ") > 0
 load keep("given", table, "path ".asked_speed." shaking_x shaking_y")          # columns: see tables.awk
 if (balanced) { load keep("balanced", table, "path ".asked_speed.(of_frame ? " frame_x frame_y" : " balanced_x balanced_y")) }
+if (!balanced) { set print $balanced; unset print }    # an empty one
 stats $given using (sqrt($1**2 + $2**2)) name "given" nooutput
 greatest = given_max
 if (balanced) {
@@ -61,20 +62,27 @@ do for [k=1:rings] {
         ring_name(k))
 }
 at_30(angle) = abs(angle/30 - floor(angle/30 + 0.5)) < 1e-9
-# A label leans away from the middle of the curve.
-stats $given using 1 name "across" nooutput
-stats $given using 2 name "up" nooutput
-middle_x = 0.5*(across_min + across_max)
-middle_y = 0.5*(up_min + up_max)
+# A label leans away from the middle of its curve. The second curve, if it is no mere dot, has one at every quarter of a turn.
 first_angle = word($given[1], 3) + 0
-is_marked(row) = words(row) == 4 && word(row, 4) == 1 && at_30(word(row, 3) + 0.0) \
-    && word(row, 3) < first_angle + 360 - 1e-9
-do for [k=1:|$given|] {
-    if (is_marked($given[k])) {
-        text = minus(sprintf("%g°", word($given[k], 3) + 0))
-        print sprintf("label %.6g %.6g 13 %.4g %.4g %.4g %s", page_x(word($given[k], 1) + 0), page_y(word($given[k], 2) + 0), \
-            text_width(text, 16), text_height(16), \
-            180/pi*arg(word($given[k], 1) + 0.0 - middle_x + {0, 1}*(word($given[k], 2) - middle_y)), text)
+is_marked(row, step) = words(row) == 4 && word(row, 4) == 1 && at_30(word(row, 3) + 0.0) \
+    && abs(word(row, 3)/step - floor(word(row, 3)/step + 0.5)) < 1e-9 && word(row, 3) < first_angle + 360 - 1e-9
+print_angle(row) = (text = minus(sprintf("%g°", word(row, 3) + 0)), sprintf("label %.6g %.6g 13 %.4g %.4g %.4g %s", \
+    page_x(word(row, 1) + 0), page_y(word(row, 2) + 0), text_width(text, 16), text_height(16), \
+    180/pi*arg(word(row, 1) + 0.0 - middle_x + {0, 1}*(word(row, 2) - middle_y)), text))
+second_marked = balanced && balanced_max > 0.25*radius
+do for [curve=1:1 + second_marked] {
+    if (curve == 1) {
+        stats $given using 1 name "wide" nooutput
+        stats $given using 2 name "tall" nooutput
+    } else {
+        stats $balanced using 1 name "wide" nooutput
+        stats $balanced using 2 name "tall" nooutput
+    }
+    middle_x = 0.5*(wide_min + wide_max)
+    middle_y = 0.5*(tall_min + tall_max)
+    do for [k=1:curve == 1 ? |$given| : |$balanced|] {
+        row = curve == 1 ? $given[k] : $balanced[k]
+        if (is_marked(row, curve == 1 ? 30.0 : 90.0)) { print print_angle(row) }
     }
 }
 unset print
@@ -86,6 +94,7 @@ stats $given using (computed = computed + ($4 == 1), 0) nooutput
 marked(value) = $4 == 1 && at_30($3) ? value : NaN
 is_angle(label) = label[strlen(label) : *] eq "°"
 balanced_part = !balanced ? "" : ", $balanced using 1:2 with lines ".balanced_style." notitle".\
+    (second_marked ? ", $balanced using (marked($1)):2 with points pt 7 ps 1.2 lc rgb '#0060A8' notitle" : "").\
     (balanced_max < 0.02*radius ? ", $balanced using 1:2 every ::0::0 with points pt 7 ps 1.6 lc rgb '#0060A8' notitle" : "")
 eval "plot $numbers using (is_angle(strcol(6)) ? NaN : unscaled_x($1)):(unscaled_y($2)):(strcol(6)) ".\
     "with labels boxed noenhanced font point_size(15) tc rgb '#606060' notitle, ".\

@@ -9,7 +9,9 @@ polygons(n, k, colour) = sprintf("'%s' index %d with filledcurves closed fc rgb 
     shapes."/pose_".n, k - 1, colour)
 layers_from(n, k, last) = k > last ? "" : polygons(n, k, layer_fill[k]).layers_from(n, k + 1, last)
 pale_from(n, k) = k > layers ? "" : polygons(n, k, layer_pale[k]).pale_from(n, k + 1)
-bodies(n) = pose_found[n] == 0 ? "" : layers_from(n, 1, body_layers).springs_from(1, $springs[n], 1)
+# The first link, often the crank, lies on top of the others, which are longer; blocks lie on links.
+links_down_from(n, k) = k < 1 ? "" : layers_from(n, 2*k - 1, 2*k).links_down_from(n, k - 1)
+bodies(n) = pose_found[n] == 0 ? "" : links_down_from(n, drawn_links).layers_from(n, 2*drawn_links + 1, body_layers).springs_from(1, $springs[n], 1)
 pins_of(n) = pose_found[n] == 0 ? "" : layers_from(n, body_layers + 1, layers)
 pale_body(n) = pose_found[n] == 0 ? "" : pale_from(n, 1).pale_springs_from(1, $springs[n], 1)
 grounds_part = grounds == 0 ? "" : \

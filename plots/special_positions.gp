@@ -74,7 +74,7 @@ head_of_columns = 10
 tile_least = 345
 load plots."tiles.gp"
 eval fixed_pivots(size).ground_hooks(size)
-set multiplot
+eval begin_panels
 do for [k=1:tiles] {
     if (place_at[k] == 0) { continue }
     if (k > 1) { eval clear_page }
@@ -88,4 +88,4 @@ do for [k=1:tiles] {
     eval caption(3, k, second_part(name) eq "" ? "" : angles_there)
     eval "plot ".mechanism($places[place])."NaN notitle"
 }
-unset multiplot
+eval end_panels

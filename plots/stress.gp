@@ -5,6 +5,7 @@
 # numbered are drawn by their two errors.
 
 load ARG0[1 : strlen(ARG0) - strlen("stress.gp")]."style.gp"
+text_mode = "enhanced"                              # powers of ten at its axes
 table = ARG1; out = ARG2; axis = ARG3; headline = ARG4; figure = argument(5); remark = argument(6)
 
 deck_title = ""

@@ -34,43 +34,74 @@ fallback_told = 1
 # Without a size a PDF has 9 pixels of the plan to the millimetre, which makes a page 178 mm wide. A PNG of millimetres has
 # 300 pixels to the inch. Pictures of an animation are pages made smaller.
 titled = !exists("figure_titles") || figure_titles
-sized = exists("figure_width") && figure_width > 0
-in_mm = sized && figure_unit eq "mm"
+size_wanted = exists("figure_width") && figure_width > 0
+in_mm = size_wanted && figure_unit eq "mm"
+# One page may have several figures, in cells: draw_figures.sh hands over their number, cells, calls for each of them twice, of which the
+# first (cell_pass) finds how large the largest is, and says which it is (cell).
+if (!exists("cells")) { cells = 1; cell = 1; cell_pass = 2 }
+if (cell == 1 && cell_pass == 1) { cell_width = 0.0; cell_height = 0.0 }
+in_cells = cells > 1
+sized = size_wanted && !in_cells
+cell_columns = in_cells ? cells > 9 ? 4 : cells > 4 ? 3 : 2 : 1
+cell_rows = int(ceil(cells/(1.0*cell_columns)))
 inches(length) = length/(in_mm ? 25.4 : 96.0)
 page_scale = 1
-smaller(scale) = sprintf("page_scale = %g; sized = 0; top_cut = 0; terminal_name = 'pngcairo'; extension = ''", scale)
+common_width = 1600.0                              # of pages without a size: letters are alike beside each other
+smaller(scale) = sprintf("page_scale = %g; sized = 0; size_wanted = 0; top_cut = 0; terminal_name = 'pngcairo'; extension = ''", scale)
+font_name = "Sans"
+text_mode = "noenhanced"                            # a name is what is written, whatever _, ^ or { mean to gnuplot
 top_cut = titled ? 0 : 92                          # pixels of the head that a page without titles has not
 
 plan_scale(w, h) = figure_width/(1.0*w) < figure_height/(1.0*h) ? figure_width/(1.0*w) : figure_height/(1.0*h)
-sheet_w(w, h) = sized ? figure_width/plan_scale(w, h) : w
+sheet_w(w, h) = sized ? figure_width/plan_scale(w, h) : page_scale == 1 && w < common_width ? common_width : w
 sheet_h(w, h) = sized ? figure_height/plan_scale(w, h) : h
-pdf_inches(w, sheet) = sized ? inches(figure_width)*w/sheet : w/228.6
-raster_scale(w) = sized ? (in_mm ? 300*inches(figure_width) : figure_width)/(1.0*w) : page_scale
+pdf_inches(w, sheet) = size_wanted ? inches(figure_width)*w/sheet : in_cells ? 7.0*w/sheet : w/228.6
+raster_scale(w) = !size_wanted && in_cells ? 0.5 : size_wanted ? (in_mm ? 300*inches(figure_width) : figure_width)/(1.0*w) : page_scale
 terminal_options(w, h) = terminal_name eq "pdfcairo" \
-    ? sprintf("enhanced size %.6gin,%.6gin font 'Sans,20' fontscale %.6g linewidth %.6g pointscale %.6g", \
+    ? sprintf(text_mode." size %.6gin,%.6gin font '".font_name.",20' fontscale %.6g linewidth %.6g pointscale %.6g", \
         pdf_inches(w, w), pdf_inches(h, w), 72*pdf_inches(w, w)/w, 144*pdf_inches(w, w)/w, 72*pdf_inches(w, w)/w) \
     : terminal_name eq "pngcairo" \
-    ? sprintf("enhanced size %d,%d font 'Sans,20' fontscale %.6g linewidth %.6g pointscale %.6g background rgb 'white'", \
+    ? sprintf(text_mode." size %d,%d font '".font_name.",20' fontscale %.6g linewidth %.6g pointscale %.6g background rgb 'white'", \
         w*raster_scale(w) + 0.01, h*raster_scale(w) + 0.01, raster_scale(w), raster_scale(w), raster_scale(w)) \
     : terminal_name eq "svg" \
-    ? sprintf("enhanced size %d,%d font 'Sans,20' fontscale 1.3333 dashed background rgb 'white'", w + 0.5, h + 0.5) \
-    : sprintf("enhanced size %d,%d font 'Sans,20' fontscale %.6g linewidth %.6g", \
+    ? sprintf(text_mode." size %d,%d font '".font_name.",20' fontscale 1.3333 dashed background rgb 'white'", w + 0.5, h + 0.5) \
+    : sprintf(text_mode." size %d,%d font '".font_name.",20' fontscale %.6g linewidth %.6g", \
         w*raster_scale(w) + 0.01, h*raster_scale(w) + 0.01, raster_scale(w), raster_scale(w))
 open_page(w, h) = open_sheet(floor(w), floor(h) - top_cut)
 open_sheet(w, h) = sprintf("page_width = %d; page_height = %d; sheet_width = %.9g; sheet_height = %.9g; ", \
-    w, h, sheet_w(w, h), sheet_h(w, h)).\
-    sprintf("set terminal %s %s; set output out.extension", terminal_name, terminal_options(sheet_w(w, h), sheet_h(w, h)))
+    w, h, sheet_w(w, h), sheet_h(w, h)).(in_cells ? open_cell(sheet_w(w, h), sheet_h(w, h)) : open_output(sheet_w(w, h), sheet_h(w, h)))
+open_output(w, h) = sprintf("set terminal %s %s; set output out.extension", terminal_name, terminal_options(w, h))
+# All cells, in the proportions of a size that is given.
+cells_width = "cell_columns*cell_width"
+cells_height = "cell_rows*cell_height"
+proportion = size_wanted ? figure_width/(1.0*figure_height) : 0.0
+wide_enough(w, h) = larger(w, h*proportion)
+high_enough(w, h) = proportion > 0 ? larger(h, w/proportion) : h
+open_cell(w, h) = cell_pass == 1 ? sprintf("cell_width = larger(cell_width, %.9g); cell_height = larger(cell_height, %.9g); ", w, h).\
+        sprintf("set terminal %s %s; set output '/dev/null'", terminal_name, terminal_options(w, h)) \
+    : (cell > 1 ? "" : open_output(wide_enough(@cells_width, @cells_height), high_enough(@cells_width, @cells_height))."; set multiplot; ").\
+        "sheet_width = cell_width; sheet_height = cell_height"
+begin_panels = in_cells ? "" : "set multiplot"
+end_panels = in_cells ? "" : "unset multiplot"
 
 # An SVG needs some work when it is done.
-of_size(length) = sized ? sprintf("%g%s", length, in_mm ? "mm" : "") : ""
-finish_svg(file) = system(sprintf("awk -v width='%s' -v height='%s' -f ", \
-    of_size(sized ? figure_width : 0), of_size(sized ? figure_height : 0)).quoted(plots."svg.awk")." < ".quoted(file)." > ".quoted(file."~").\
+in_markup(text) = text eq "" ? "" : (text[1:1] eq "&" ? "&amp;" : text[1:1] eq "<" ? "&lt;" : text[1:1] eq ">" ? "&gt;" : text[1:1]).in_markup(text[2:*])
+of_size(length) = size_wanted ? sprintf("%g%s", length, in_mm ? "mm" : "") : ""
+finish_svg(file) = system("title=".quoted(in_markup(titled && exists("headline") ? headline : "")).sprintf(" awk -v width='%s' -v height='%s' -f ", \
+    of_size(size_wanted ? figure_width : 0), of_size(size_wanted ? figure_height : 0)).quoted(plots."svg.awk")." < ".quoted(file)." > ".quoted(file."~").\
     " && mv ".quoted(file."~")." ".quoted(file))
-close = "unset output; if (terminal_name eq 'svg') { said = finish_svg(out.extension) }; reset"
+close_output = "unset output; if (terminal_name eq 'svg') { said = finish_svg(out.extension) }; reset"
+close = !in_cells ? close_output : cell_pass == 1 || cell < cells ? "reset" : "unset multiplot; ".close_output."; cells = 1"
 
-across(pixels) = (pixels + 0.5*(sheet_width - page_width))/sheet_width     # from the left edge, as a screen coordinate
-up(pixels) = (pixels + 0.5*(sheet_height - page_height))/sheet_height      # from the lower edge
-down(pixels) = 1 - up(pixels - top_cut)                                   # from the upper edge
+# Screen coordinates of pixels from the left, lower and upper edges of the page, of its cell.
+cell_left = in_cells ? ((cell - 1)%cell_columns)*1.0 : 0.0
+cell_low = in_cells ? cell_rows - 1.0 - (cell - 1)/cell_columns : 0.0
+screen_width(w) = in_cells ? wide_enough(@cells_width, @cells_height) : w
+screen_height(h) = in_cells ? high_enough(@cells_width, @cells_height) : h
+across(pixels) = (pixels + 0.5*(sheet_width - page_width) + cell_left*sheet_width)/screen_width(sheet_width)
+up(pixels) = (pixels + 0.5*(sheet_height - page_height) + cell_low*sheet_height + screen_height(sheet_height) - cell_rows*sheet_height) \
+    /screen_height(sheet_height)
+down(pixels) = up(page_height + top_cut - pixels)
 
 # ---- Lines: told apart without colour by dashes and marks ------------------------------------------------------
 
@@ -152,6 +183,10 @@ drive_quantity(unit) = driven_word(2) eq "against" ? "angle of ".drive_subject."
 crank_title(unit) = by_law ? "time [".unit."]" : (of_cycle ? drive_quantity(unit) : "crank angle θ₂")." [".typeset(unit)."]"
 against_position(unit) = "against ".(of_cycle ? drive_quantity(unit) : "crank angle")
 speed_name = of_cycle && drive_subject ne "crank" ? "speed of ".drive_subject : of_cycle ? "crank speed" : "crank speed ω₂"
+# O2 as the deck calls it, by the note "2: link arm; O2: pin O": tables of four-bars have names of their own for pins.
+behind(text, mark) = substr(text, strstrt(text, mark) + strlen(mark), strlen(text))
+until(text, mark) = strstrt(text, mark) == 0 ? text : text[1 : strstrt(text, mark) - 1]
+pin_named(pin) = strstrt(link_note, pin.": pin ") == 0 ? pin : inside(until(behind(link_note, pin.": pin "), ";"), 14)
 numbered(figure, text) = figure eq "" ? text : "Figure ".figure.".  ".text
 divergence = "below zero: −√(−ω²)/2π of a mode that has diverged (static instability)"
 cut(text, n) = strlen(text) <= n ? text : text[1 : n - 1]."…"
@@ -266,18 +301,21 @@ takes_prefix(unit, power) = strstrt(" N N.m J W Pa Hz V A ", " ".unit." ") > 0 &
 prefix(power) = power == 0 ? "" : word("p n µ m - k M G T", 5 + power/3)
 power_text(power) = power == 0 ? "" : "10".raised(minus(sprintf("%d", power)))." "
 raised(text) = text eq "" ? "" : (text[1:1] eq "−" ? "⁻" : word("⁰ ¹ ² ³ ⁴ ⁵ ⁶ ⁷ ⁸ ⁹", 1 + text[1:1])).raised(text[2:*])
+lowered(text) = text eq "" ? "" : word("₀ ₁ ₂ ₃ ₄ ₅ ₆ ₇ ₈ ₉", 1 + text[1:1]).lowered(text[2:*])
 unit_and_power(unit, power) = takes_prefix(unit, power) ? prefix(power).typeset(unit) \
     : unit eq "-" || unit eq "" ? substr(power_text(power), 1, strlen(power_text(power)) - 1) : power_text(power).typeset(unit)
 bracketed(text) = text eq "" ? "" : " [".text."]"
 value_title(name, unit, low, high) = name.bracketed(unit_and_power(unit, value_power(low, high)))
 
 # The title of a value axis stands at the left edge of the page, however wide the ticks; two lines if one is too long.
-title_size(text, length) = fit_size(text, length + 24, 20, 15)
-title_lines(text, length) = text_width(text, title_size(text, length)) > length + 24 ? 2 : 1
+title_lines(text, length) = text_width(text, 20) > length + 24 ? 2 : 1
+title_most = 20                                     # points of all titles of a page: as few as the longest needs
+title_size(text, length) = title_lines(text, length) == 1 ? 20 : fit_size(wider_part(broken(text), "\n"), length + 24, 20, 9)
+wider_part(text, apart) = strstrt(text, apart) == 0 ? text : (strstrt(text, apart) > strlen(text)/2 ? text[1 : strstrt(text, apart) - 1] \
+    : text[strstrt(text, apart) + 1 : *])
 planned_lines(text, length) = title_lines(text, sized ? 0.6*length : length)       # a given size may leave panels less height
 title_text(text, length) = title_lines(text, length) == 1 ? text : broken(text)
-axis_title(text, base, length) = sprintf("title_font = %d; ", title_lines(text, length) == 1 ? title_size(text, length) \
-    : fit_size(text, 1.7*length, 18, 9)).\
+axis_title(text, base, length) = sprintf("title_font = %d; ", lesser(title_most, title_size(text, length))).\
     "unset ylabel; set label 905 ".quoted_twice(title_text(text, length)).\
     sprintf(" at screen across(%g), up(%g) center rotate by 90 noenhanced font point_size(title_font)", \
         14 + 17*title_lines(text, length), base + 0.5*length)
@@ -289,12 +327,15 @@ octal(letter) = "\\".word("134 042 140 100", strstrt("\\\"\140@", letter))
 # Of the panels of panels.gp: whether one has a logarithmic axis, what its axis takes in besides the curves, what is done before it is
 # drawn, and parts of its plot command below and above the curves, a comma behind each, with their entries of the legend, a comma before each.
 is_logarithmic(panel) = 0
+shown_low(panel) = NaN                              # where its axis ends whatever its curves do
+shown_high(panel) = NaN
 also_shown(panel) = NaN
 also_reached(panel) = NaN                           # likewise, of a greatest value where the other is a least one
 before_panel(panel) = ""
 parts_below(panel) = ""
 parts_above(panel) = ""
 keys_of(panel) = ""
+key_longest = 0                                     # the width of their words, where it is not that of titles
 # Of all: where curve k is marked, the rows of which there are as many at least, the height of one of so many, the line of a curve, whether panels of nothing but zeros are kept; whether marks are shifted from curve to
 # curve, and lie, like the dots, above all lines; their legends: the least number of entries that make one, or one beside all panels, which have
 # the same curves, with a title; how many entries make the page wider.
@@ -314,8 +355,23 @@ marks_shifted = 1
 in_layers = 0
 least_entries = 2
 legend_once = 0
+when_planned = ""                                   # done when it is known which panels are drawn: is_drawn(panel)
 legend_title = ""
+line_of(panel) = "lines"
 legend_entries = 1
+
+# Measured points that draw_figures.sh hands over: overlays, their number, and of each overlay_1, a file, its names and units overlay_x_1,
+# overlay_x_unit_1, overlay_y_1, overlay_y_unit_1, and overlay_title_1. They lie where a column or the title of an axis has the name, and the unit is the same.
+# A figure that draws one says so in the file `overlaid`.
+if (!exists("overlays")) { overlays = 0 }
+of_overlay(what, k) = value(sprintf("overlay_%s%d", what, k))
+fits_axis(what, k, names, unit) = strstrt(names, "|".of_overlay(what."_", k)."|") > 0 \
+    && (of_overlay(what."_unit_", k) eq "" || of_overlay(what."_unit_", k) eq unit)
+is_overlaid(k, xs, x_unit, ys, y_unit) = fits_axis("x", k, xs, x_unit) && fits_axis("y", k, ys, y_unit)
+measured_look(k) = sprintf("points pt %d ps 1.6 lw 2.5 lc rgb '#D00000'", int(word("2 1 3 8", 1 + (k - 1)%4)))
+measured(k, xs, x_unit, ys, y_unit) = k > overlays ? "" : (!is_overlaid(k, xs, x_unit, ys, y_unit) ? "" : (said = system("echo ".k." >> ".quoted(overlaid)), \
+    sprintf(", overlay_%d using 1:2 with %s title overlay_title_%d", k, measured_look(k), k))).measured(k + 1, xs, x_unit, ys, y_unit)
+measured_width(k, size) = k > overlays ? 0 : larger(text_width(of_overlay("title_", k), size), measured_width(k + 1, size))
 
 # ---- Curves against the crank angle ---------------------------------------------------------------------------
 # The legend stands in columns of its own at the right, so it never meets a curve; what is beyond three columns is counted.
@@ -329,8 +385,8 @@ unlisted(n) = n > listed(n) ? sprintf("… +%d", n - listed(n)) : ""
 # The plan of a page h high, with ticks and words of the legend so wide and titles of so many lines. A page of a given size
 # keeps its letters at 7 points, if the plot keeps 420 pixels, and three quarters of its height.
 left_room(ticks, lines) = larger(130, 60 + 34*lines + ticks)
-legend_width(entries, longest) = columns_of(entries)*larger(310, 130 + longest) - 15
-plan_width(fixed, h) = !sized ? fixed + 1160 : larger(larger(lesser(fixed + 1160, 96*inches(figure_width)/0.35), fixed + 420), \
+legend_width(entries, longest) = entries == 0 ? 15 : columns_of(entries)*larger(230, 130 + longest) - 15
+plan_width(fixed, h) = !sized ? larger(common_width, fixed + 900) : larger(larger(lesser(fixed + 1160, 96*inches(figure_width)/0.35), fixed + 420), \
     0.75*h*figure_width/figure_height)
 legend_plan(h, left, legend) = sprintf("plot_left = %d; plot_width = %d; ", left, plan_width(left + legend + 15, h) - left - legend - 15).\
     (sized ? open_page(plan_width(left + legend + 15, h), top_cut + plan_width(left + legend + 15, h)*figure_height/(1.0*figure_width)) \
@@ -365,6 +421,7 @@ abscissa_step(low, high) = nice((abscissa_high(low, high) - abscissa_low(low, hi
 abscissa(low, high) = abscissa_between(abscissa_low(low, high), abscissa_high(low, high), abscissa_step(low, high))
 abscissa_between(low, high, step) = sprintf("set xrange [%.15g:%.15g]; set xtics (%s)", low, high, \
     ticks_between(low, high, step, power_of(low, high)))
+degree_step(range) = range < 14 ? nice(range/8) : range < 40 ? 5 : range < 130 ? 15 : range < 250 ? 30 : range < 400 ? 45 : range < 800 ? 90 : 180*ceil(range/1440)
 abscissa_title(name, unit, low, high) = name.bracketed(unit_and_power(unit, power_of(abscissa_low(low, high), abscissa_high(low, high))))
 
 # A curve is a line, a dot at every computed position, and marks on some of these, shifted from curve to curve so that curves
@@ -375,3 +432,6 @@ line_width(n) = few(n) ? 1.5 : 3
 dot_size(n) = n <= 24 ? 0.1 : few(n) ? 0.7 : n <= 150 ? 0.4 : 0.1
 mark_step(n) = n > 24 ? n/12 : 1
 mark_first(curve, curves, n) = n > 24 ? ((curve - 1)*mark_step(n))/curves : 0
+
+# A style of the user's own, last of all.
+if (exists("figure_style")) { load figure_style }

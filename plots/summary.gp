@@ -2,7 +2,6 @@
 # between. Frequencies share a panel, damping ratios too, every other quantity has its own. Other parameters are those of the first row.
 
 load plots."parameter.gp"
-headline = "Least, mean and greatest against ".meant
 note = "bands: least to greatest over the computed positions and speeds, lines: mean".(fixed eq "" ? "" : "; ".fixed[2:*])
 
 # The quantities of every panel: their names in the columns.
@@ -26,6 +25,10 @@ if (words(frequencies) > 0) { quantities_of[declared + 1] = frequencies; added =
 if (words(ratios) > 0) { quantities_of[declared + 1] = ratios; added = panel_of_means("damping ratio", ratios, ratios) }
 do for [name in others] { quantities_of[declared + 1] = name; added = panel_of_means(with_blanks(name), name, "mean") }
 
+told = (words(frequencies) > 0 ? " 'natural frequency'" : "").(words(ratios) > 0 ? " 'damping ratio'" : "")
+do for [name in others] { told = told." '".with_blanks(name)."'" }
+enumerated(list, k) = word(list, k).(k == words(list) ? "" : k == words(list) - 1 ? " and " : ", ").(k < words(list) ? enumerated(list, k + 1) : "")
+headline = capital(enumerated(told, 1))." against ".meant
 source_of(k) = "< awk -v want=".quoted("rows_by ".other)." -f ".quoted(plots."quoted.awk")." -f ".quoted(plots."tables.awk")." < ".quoted(table)
 
 least_of(panel) = (found_least = 1e300, sum [k_of=1:words(quantities_of[panel])] \

@@ -1,9 +1,18 @@
 # What the terminal svg leaves to be done: marks of the size that other terminals give them, and with outlines of some width;
 # fonts that there are everywhere, as wide as planned; the size of the picture, if one is given (width, height, each with unit).
 
-BEGIN { shrink = 0.403 }
+BEGIN {
+    shrink = 0.403
+    title = ENVIRON["title"]
+    gsub(/[\\&]/, "\\\\&", title)
+}
 
 /<svg/ { head = 1 }
+
+# The headline as the title, which browsers show.
+title && /<title>Gnuplot<\/title>/ { sub(/>Gnuplot</, ">" title "<") }
+
+{ sub(/<title>gnuplot_plot_[0-9a-z]*<\/title>/, "") }
 
 head && width && /width="[^"]*" height="[^"]*"/ {
     sub(/width="[^"]*" height="[^"]*"/, "width=\"" width "\" height=\"" height "\"")

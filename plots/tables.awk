@@ -30,15 +30,17 @@
 #                                  all digits, then these columns, or of points, A:crank, ux, uy and the rotation in radians
 #   want="branches 20"             the branches of branches.dat at speed 20, a datablock a branch, named by its number, an empty line where
 #                                  rows have failed: crank, frequency, 1 where a mark is drawn
-#   want="joints 20"               of reactions.dat with a row a pin and link at speed 20, a line a joint with a force: its number among them
-#                                  and its name, A, or A:crank where the links feel different forces; one for the two opposite ones of two links
+#   want="joints 20 O Q"           of reactions.dat with a row a pin and link at speed 20, a line a joint with a force: its number among them
+#                                  and its name, A, or A:crank where the links feel different forces; one for the two opposite ones of two links; of
+#                                  pins of one link only the ground pivots, named behind the speed
 #   want="coordinates 20"          of coordinates.dat or ratios.dat at speed 20, or at `all`, a line a coordinate in the table's order: length or angle, its units of
 #                                  value (or ratio), rate and effort, whether its effort is not zero throughout
 #   want="reference"               the coordinate to which the ratios of ratios.dat refer
 #   want="limits"                  of linkage.dat of a linkage that is no four-bar: a line a range of the first drive (1), a link that swings
-#                                  (2), a slider (3), a coordinate that is an angle (4) or a length (5), a transmission angle (6) and a pressure
-#                                  angle (7): that number, the name, the least and the greatest value, where the drive is then, swing, stroke or
-#                                  span and time ratio (0: none), the name of what stops the drive at its greatest value
+#                                  (2), a slider (3), a further drive or coordinate that is an angle (4) or a length (5), a transmission angle (6) and
+#                                  a pressure angle (7): that number, the name, the least and the greatest value, where the drive is then, swing,
+#                                  stroke or span and time ratio (0: none), what stops the drive at its greatest value, the number of the range
+#                                  (0: there is one)
 #   want="turning"                 of the same table: the links that turn fully
 #   want="wrong"                   what is no number in a column of numbers, or no name in one of names, once a column: the column, or - where
 #                                  every figure needs it, then the line and what is wrong there
@@ -271,19 +273,23 @@ asked[1] == "turning" && $at["quantity"] == "turns" { print $at["part"] }
 
 asked[1] == "limits" && $at["quantity"] ~ /_(from|angle|place|transmission|pressure|value)$/ {
     kind = $at["quantity"] ~ /^range/ ? 1 : $at["quantity"] ~ /angle$/ ? 2 : $at["quantity"] ~ /place$/ ? 3 : $at["quantity"] ~ /mission$/ ? 6 \
-        : $at["quantity"] ~ /value$/ ? ($at["unit"] == "deg" ? 4 : 5) : 7
-    is_least = $at["quantity"] ~ /^(least|range)/
+        : $at["quantity"] ~ /(value|from)$/ ? ($at["unit"] == "deg" ? 4 : 5) : 7
+    is_least = $at["quantity"] !~ /^greatest/
     if (is_least || kind == 7) {
-        key_of[++shapes] = kind; link_at[shapes] = $at["part"]
+        key_of[++shapes] = kind; link_at[shapes] = $at["part"] ""
+        range_of[shapes] = ranges += kind == 1
         value[1, shapes] = value[2, shapes] = is_least ? $at["value"] : 0
         value[3, shapes] = value[4, shapes] = $at["crank"]
     }
     if (!is_least) { value[2, shapes] = $at["value"]; value[4, shapes] = $at["crank"] }
 }
 
-asked[1] == "limits" && $at["quantity"] == "range_to" { value[2, shapes] = value[4, shapes] = $at["value"]; stops[shapes] = $at["part"] }
+asked[1] == "limits" && $at["quantity"] ~ /_to$/ {
+    value[2, shapes] = $at["value"]; value[4, shapes] = $at["crank"]; value[5, shapes] = value[2, shapes] - value[1, shapes]
+    stops[shapes] = $at["part"]
+}
 
-asked[1] == "limits" && $at["quantity"] ~ /^(swing|stroke|span|time_ratio)$/ { value[$at["quantity"] == "time_ratio" ? 6 : 5, shapes] = $at["value"] }
+asked[1] == "limits" && $at["part"] "" == link_at[shapes] && $at["quantity"] ~ /^(swing|stroke|span|time_ratio)$/ { value[$at["quantity"] == "time_ratio" ? 6 : 5, shapes] = $at["value"] }
 
 asked[1] == "joints" && same($at["speed"], asked[2]) {
     if (!(($at["pin"], $at["link"]) in place)) {
@@ -426,8 +432,11 @@ function nothing(    i, text) {
 function turned_on(angle, before) { return angle + 360 * int((before - angle) / 360 + (before > angle ? 0.5 : -0.5)) }
 
 # Two links at a pin feel opposite forces, unless a mass or a load takes some of it. The free end of a link feels none.
-function print_joints(    k, alike) {
+# A pin or point that a link has for itself is no joint, unless it is a ground pivot, though a load may act there.
+function print_joints(    k, alike, is_ground) {
+    for (k = 3; k <= n_asked; k++) is_ground[asked[k]] = 1
     for (k = 1; k <= places; k++) {
+        if (links_at[pin[k]] == 1 && n_asked > 2 && !(pin[k] in is_ground)) continue
         alike = links_at[pin[k]] == 2 && apart[pin[k]] <= 1e-9 * greatest
         if (alike && met[pin[k]]++ || links_at[pin[k]] == 1 && greatest > 0 && high[k] <= 1e-12 * greatest) continue
         print k, alike || links_at[pin[k]] == 1 ? pin[k] : pin[k] ":" link_of[k]
@@ -438,10 +447,10 @@ function print_limits(    kind, i, k, line) {
     for (kind = 1; kind <= 7; kind++)
         for (i = 1; i <= shapes; i++) {
             # A link that keeps its angle swings by what rounding makes of it; what is constant has no bar.
-            if (key_of[i] != kind || kind == 2 && value[5, i] < 1e-9 || (kind == 4 || kind == 5) && value[5, i] + 0 == 0) continue
+            if (key_of[i] != kind || kind == 2 && value[5, i] < 1e-5 || (kind == 4 || kind == 5) && value[5, i] + 0 == 0) continue
             line = kind " " link_at[i]
             for (k = 1; k <= 6; k++) line = line " " pointed(sprintf("%.12g", value[k, i]))
-            print line, (kind == 1 ? stops[i] : "-")
+            print line, (kind == 1 ? stops[i] : "-"), (ranges > 1 ? range_of[i] : 0)
         }
 }
 

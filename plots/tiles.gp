@@ -9,13 +9,13 @@ tile_lines = int(ceil(tiles/(1.0*tile_columns)))
 if (tile_columns > tiles) { tile_columns = tiles }
 highest = 0
 do for [line=1:tile_lines] { highest = larger(highest, line_y1[line] - line_y0[line]) }
-tile_width = lesser(tile_limit, (1720.0 - lead_room)/tile_columns)
+tile_width = lesser(tile_limit, (1540.0 - lead_room)/tile_columns - 20)
 pixel = lesser(tile_width/(x1 - x0), 1.25*tile_limit/highest)
 tile_width = larger(pixel*(x1 - x0), tile_least)
 tile_gap = 20
 caption_height = 30*caption_lines + 18
 array line_top[tile_lines + 1]
-words_width = larger(text_width(headline, 23), larger(text_width(note, 15), text_width(remark, 15))) + 60
+words_width = lesser(1550, larger(text_width(headline, 23), larger(text_width(note, 15), text_width(remark, 15))) + 60)
 page_across = larger(larger(lead_room + tile_columns*(tile_width + tile_gap) + 40, words_width), \
     larger(820, lesser(text_width(deck_title, 18), 1050) + 60))
 line_top[1] = 116 + legend_height(page_across - 60) + 12 + head_of_columns
@@ -38,8 +38,11 @@ half_tile = 0.5*pixel*(x1 - x0)
 tile(k) = sprintf("set lmargin at screen %.6f; set rmargin at screen %.6f; set tmargin at screen %.6f; set bmargin at screen %.6f; ", \
     across(tile_x(k) - half_tile), across(tile_x(k) + half_tile), down(line_top[line_of(k)]), down(tile_foot(k))).\
     sprintf("set xrange [%.12g:%.12g]; set yrange [%.12g:%.12g]", x0, x1, line_y0[line_of(k)], line_y1[line_of(k)])
-caption(line, k, text) = sprintf("set label %d ", 950 + line).quoted_twice(text).\
-    sprintf(" at screen %.6f, %.6f center noenhanced font point_size(16)", across(tile_x(k)), down(tile_foot(k) + 30*line - 8))
+# As small, and at last as short, as a tile has room for.
+within_tile(text, size) = inside(text, int(lesser(strlen(text), strlen(text)*(tile_width + 10)/larger(1, text_width(text, size)))))
+caption(line, k, text) = sprintf("set label %d ", 950 + line).quoted_twice(within_tile(text, fit_size(text, tile_width + 10, 16, 12))).\
+    sprintf(" at screen %.6f, %.6f center noenhanced font point_size(%g)", across(tile_x(k)), down(tile_foot(k) + 30*line - 8), \
+        fit_size(text, tile_width + 10, 16, 12))
 # To the left of a line, and above the first.
 line_title(k, text) = "set label 949 ".quoted_twice(text).sprintf(" at screen %.6f, %.6f center rotate by 90 noenhanced font point_size(18)", \
     across(tiles_left - lead_room + 20), down(0.5*(line_top[line_of(k)] + tile_foot(k))))

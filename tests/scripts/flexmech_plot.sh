@@ -158,7 +158,7 @@ zeros() {
   done
   shows "reduced inertia" "$folder/lagrange_speed_0.svg" && shows_not "torque [" "$folder/lagrange_speed_0.svg" &&
     shows "angular velocity" "$folder/motion.svg" && shows_not "motor torque" "$folder/motion.svg" &&
-    shows "shaking force x [N]" "$folder/harmonics_speed_5.svg" && shows "driving torque [N·m]" "$folder/harmonics_speed_5.svg"
+    shows "force x [N]" "$folder/harmonics_speed_5.svg" && shows "torque [N·m]" "$folder/harmonics_speed_5.svg"
 }
 
 # What a parameter is, is on the page.

@@ -354,9 +354,10 @@ figures() {
   drawn "$out/four_bar" || return 1
   for name in L t; do
     grep -q "/figures/summary_by_$name.svg$" "$scratch/drawn" && grep -q "/figures/frequencies_by_$name.svg$" "$scratch/drawn" || { echo "no figure of $name"; return 1; }
-    # A panel for f1 and f3, ten others.
-    for title in 'natural frequency' torque 'transmission angle' 'elastic torque'; do
-      grep -q ">$title" "$out/four_bar/figures/summary_by_$name.svg" || { echo "no panel of $title"; return 1; }
+    # A panel for f1 and f3, ten others; long titles are in two lines.
+    tr '\n' ' ' <"$out/four_bar/figures/summary_by_$name.svg" | sed 's/<[^>]*>/ /g; s/[[:blank:]][[:blank:]]*/ /g' >"$scratch/words"
+    for title in 'natural frequency [' 'torque [' 'transmission angle [' 'elastic torque ['; do
+      grep -qF " $title" "$scratch/words" || { echo "no panel of $title"; return 1; }
     done
   done
   # Another parameter than the one that varies is that of the first row.
