@@ -2,8 +2,8 @@
 # Draws every figure that the tables of one deck allow, into the folder `figures` beside them (the linkage that draws the
 # paths of points, as an animated GIF too), or animates all that moves in them, into the folder `animations`. This is the
 # command flexmech-plot; `draw_figures.sh --help` lists its options.
-# A figure of the thesis gets its number (thesis_figures.txt). The figures of the last run stay until new ones are
-# drawn; then they go, and files that this script did not draw stay. Prints a line a figure.
+# A figure of the thesis gets its number (thesis_figures.txt). The figures of the last run in the same format stay until new ones
+# are drawn; then they go, and files that this script did not draw stay. Prints a line a figure.
 
 set -u
 LC_ALL=C
@@ -32,10 +32,14 @@ Draws the figures that the tables of a deck allow, into FOLDER/figures; FOLDER i
 has written, such as outputs/mechanism1.
 
   --animate        animate the linkage and its modes instead, as GIFs, into FOLDER/animations
+  --each           a figure for every speed, where more than four would be one page
   --errors         draw the estimated errors of the frequencies too
-  --format FORMAT  png, svg or pdf; default: png
+  --format FORMAT  png, svg or pdf; several with commas between, side by side; default: png
+  --only FIGURE    no others, such as campbell; several with commas between, or in several options
+  --overlay POINTS measured points over a curve: FILE.csv:X:Y, columns by number or name
   --size SIZE      of every figure: WIDTHxHEIGHT in pixels, such as 1200x800, or in millimetres,
                    such as 160x100mm; default: 1600 pixels wide, as high as it needs to be
+  --style FILE     of gnuplot, read last, for colours, fonts and lines of your own
   --no-titles      no heading and no notes, for figures with a caption of their own
   --help, --version
 
@@ -56,13 +60,19 @@ format=
 size=
 titles=yes
 errors=no
+each=no
+only=
+style=
+overlays=
 wanted=
 options=
+newline='
+'
 ended=
 while [ $# -gt 0 ]; do
     option=${1%%=*}
     case $option in
-        --format | --size)
+        --format | --size | --only | --style | --overlay)
             case $1 in
                 *=*) value=${1#*=} ;;
                 *)
@@ -71,17 +81,22 @@ while [ $# -gt 0 ]; do
                     shift ;;
             esac
             [ -n "$value" ] || misused "$option takes a value"
-            [ $option = --format ] && format=$value || size=$value
-            options="$options $option $value" ;;
-        --animate | --errors | --no-titles | --help | --version)
+            case $option in
+                --format) format=$value ;;
+                --size) size=$value ;;
+                --only) only=$only,$value ;;
+                --style) style=$value ;;
+                --overlay) overlays=$overlays$value$newline ;;
+            esac ;;
+        --animate | --each | --errors | --no-titles | --help | --version)
             [ "$option" = "$1" ] || misused "$option takes no value: $1"
             case $option in
                 --animate) figures=animations ;;
+                --each) each=yes ;;
                 --errors) errors=yes ;;
                 --no-titles) titles=no ;;
                 *) wanted=$option ;;
-            esac
-            options="$options $option" ;;
+            esac ;;
         --)
             ended=yes
             shift
@@ -95,14 +110,20 @@ done
 [ "$command" = make ] && format_option=FORMAT= && size_option=SIZE= || { format_option='--format '; size_option='--size '; }
 for folder in "$@"; do
     case $ended${folder%%=*} in
-        --animate | --errors | --no-titles | --format | --size | --help | --version)
+        --animate | --each | --errors | --no-titles | --format | --only | --overlay | --size | --style | --help | --version)
             misused "options stand before the folder: $folder" ;;
     esac
 done
-case $format in
-    '' | png | svg | pdf) ;;
-    *) misused "$format_option$format: png, svg or pdf" ;;
-esac
+[ -z "$format" ] || printf '%s\n' "$format" | awk 'NR > 1 || !/^(png|svg|pdf)(,(png|svg|pdf))*$/ { exit other = 1 } END { exit other }' ||
+    misused "$format_option$format: png, svg or pdf, or several of them with commas between"
+# Figures by their names without speed, parameter and number; those that figures.txt has not are named here.
+known_figures() {
+    {
+        sed -n 's/^figures  *\([^ ]*\) .*/\1/p' "$PLOTS/figures.txt"
+        echo "balance coupler_curve drive_locus errors finite_element_model frequencies frequency growth kinematics_accelerations \
+            kinematics_angles kinematics_velocities linkage linkage_positions mechanism mode modes shaking_force strains summary" | tr -s ' ' '\n'
+    } | sort -u
+}
 settings="figure_format = '$format'; figure_titles = $([ $titles = no ]; echo $?); figure_width = 0"
 if [ -n "$size" ]; then
     set_size=$(size_words "$size")
@@ -111,8 +132,8 @@ if [ -n "$size" ]; then
     settings="$settings; $(echo "$set_size" | awk '{ printf "figure_width = %d; figure_height = %d; figure_unit = \"%s\"", $1, $2, $3 }')"
 fi
 if [ $figures = animations ]; then
-    [ -z "$format$size" ] && [ $errors = no ] ||
-        misused '--animate takes no --format, --size or --errors: an animation is a GIF of fixed size'
+    [ -z "$format$size$only$overlays" ] && [ $errors = no ] && [ $each = no ] ||
+        misused '--animate takes no --format, --size, --errors, --each, --only or --overlay: an animation is a GIF of fixed size'
 fi
 if [ "$wanted" = --help ]; then
     help
@@ -129,6 +150,26 @@ while [ -h "$script" ]; do
 done
 PLOTS=$(CDPATH='' cd -- "$(dirname -- "$script")" && pwd) || exit 1
 export PLOTS
+for one in $(printf '%s' "$only" | tr ', ' '\n\n'); do
+    known_figures | grep -qxF -e "$one" || misused "--only $one: expected one of $(known_figures | paste -s -d' ' -)"
+done
+
+# style_fault FILE: what gnuplot says to it.
+style_fault() {
+    FILE=$1 awk "$quoting"'BEGIN { print "set terminal dumb; figure_style = " quoted(ENVIRON["FILE"]) "; call " quoted(ENVIRON["PLOTS"] "/style.gp") }' |
+        LC_ALL=C.UTF-8 gnuplot - 2>&1 | sed -n '/[^ ^]/{s/^ *//; /^gnuplot>/d; p; q;}'
+}
+# absolute PATH
+absolute() { case $1 in /*) printf '%s' "$1" ;; *) printf '%s/%s' "$(pwd)" "$1" ;; esac; }
+# A text as gnuplot reads it, for awk.
+quoting=$(cat "$PLOTS/quoted.awk")
+if [ -n "$style" ]; then
+    [ -f "$style" ] && [ -r "$style" ] || misused "--style $style: no such file; expected one with commands of gnuplot"
+    style=$(absolute "$style")
+    ! command -v gnuplot > /dev/null || fault=$(style_fault "$style")
+    [ -z "${fault-}" ] || misused "--style $style: gnuplot says: $fault"
+    settings="$settings; figure_style = $(FILE=$style awk "$quoting"'BEGIN { print quoted(ENVIRON["FILE"]) }')"
+fi
 
 # Linkages are placed by the program: the one that FLEXMECH names, else that of this checkout, the one installed with these
 # scripts, or any other.
@@ -149,14 +190,53 @@ if [ "$wanted" = --version ]; then
     exit
 fi
 [ $# -gt 0 ] || misused 'the folder with the tables of a deck is missing'
-if [ $# -gt 1 ]; then
+# Points to lay over: the file, two columns behind colons, and what overlay.awk makes of them, with its names and units.
+check_overlay() {
+    y=${1##*:}
+    rest=${1%:*}
+    points=${rest%:*}
+    [ "$rest" != "$1" ] && [ "$points" != "$rest" ] && [ -n "$y" ] && [ -n "${rest##*:}" ] ||
+        misused "--overlay $1: expected FILE:X:Y, a file and two of its columns by number or name"
+    [ -f "$points" ] && [ -r "$points" ] || misused "--overlay $1: no file $points; expected FILE:X:Y"
+    found=$(X=${rest##*:} Y=$y awk "BEGIN { at = ENVIRON[\"X\"]; over = ENVIRON[\"Y\"] } $(cat "$PLOTS/overlay.awk")" < "$points") ||
+        misused "--overlay $1: ${found##*!}"
+}
+IFS_before=$IFS
+IFS=$newline
+absolute_overlays=
+for one in $overlays; do
+    IFS=$IFS_before
+    check_overlay "$one"
+    absolute_overlays=$absolute_overlays$(absolute "$one")$newline
+done
+IFS=$IFS_before
+overlays=$absolute_overlays
+
+case $format in *,*) formats=$(echo "$format" | tr , ' ') ;; *) formats= ;; esac
+if [ $# -gt 1 ] || [ -n "$formats" ]; then
     status=0
     trap 'kill ${!-} 2> /dev/null; wait; exit 130' INT
     trap 'kill ${!-} 2> /dev/null; wait; exit 143' TERM HUP
     for folder in "$@"; do
-        # The options are plain words. A shell obeys a signal while it waits, not while it runs something.
-        sh "$PLOTS/draw_figures.sh" $options -- "$folder" &
-        wait $! || status=1
+        for format in ${formats:-${format:--}}; do
+            [ "$format" = - ] && format=
+            # A shell obeys a signal while it waits, not while it runs something.
+            (
+                set -- -- "$folder"
+                [ $figures = figures ] || set -- --animate "$@"
+                [ $each = no ] || set -- --each "$@"
+                [ $errors = no ] || set -- --errors "$@"
+                [ $titles = yes ] || set -- --no-titles "$@"
+                [ -z "$format" ] || set -- --format "$format" "$@"
+                [ -z "$size" ] || set -- --size "$size" "$@"
+                [ -z "$only" ] || set -- --only "$only" "$@"
+                [ -z "$style" ] || set -- --style "$style" "$@"
+                IFS=$newline
+                for one in $overlays; do set -- --overlay "$one" "$@"; done
+                exec sh "$PLOTS/draw_figures.sh" "$@"
+            ) &
+            wait $! || { of_one=$?; [ $# -gt 1 ] && status=1 || status=$of_one; }
+        done
     done
     exit $status
 fi
@@ -186,11 +266,25 @@ for left in .figures.[0-9]*; do
     [ ! -d "$left" ] || kill -0 "$number" 2> /dev/null || ! flock -n "$left" true || mv "$left" $new
 done
 
+overlay=0
+IFS=$newline
+for one in $overlays; do
+    IFS=$IFS_before
+    overlay=$((overlay + 1))
+    check_overlay "$one"
+    printf '%s\n' "$found" | sed 1d > "$new/overlay_$overlay"
+    title=${points##*/}
+    settings="$settings; overlays = $overlay; $(TITLE=${title%.*} FILE=$new/overlay_$overlay HEAD=$(printf '%s\n' "$found" | sed 1q) awk -v k=$overlay "$quoting"'BEGIN {
+        split(ENVIRON["HEAD"], part, "|")
+        printf "overlay_%d = %s; overlay_title_%d = %s; overlay_x_%d = %s; overlay_x_unit_%d = %s; overlay_y_%d = %s; overlay_y_unit_%d = %s", k, \
+            quoted(ENVIRON["FILE"]), k, quoted(ENVIRON["TITLE"]), k, quoted(part[1]), k, quoted(part[2]), k, quoted(part[3]), k, quoted(part[4])
+    }')"
+done
+IFS=$IFS_before
+settings="$settings; overlaid = '$new/overlaid'"
+
 # ask WANT TABLE: see tables.awk
 ask() { awk -v want="$1" -f "$PLOTS/quoted.awk" -f "$PLOTS/tables.awk" < "$2"; }
-
-# A text as gnuplot reads it, for awk.
-quoting=$(cat "$PLOTS/quoted.awk")
 
 remark_once() {
     grep -qxF -e "$1" "$new/remarks" 2> /dev/null || remark "$1"
@@ -243,8 +337,17 @@ sound() {
     done
 }
 
+# asked_for FIGURE KIND: by --only, or for want of it.
+asked_for() {
+    [ -n "$only" ] || return 0
+    stem=$(printf '%s\n' "$1" | sed 's/_\(speed\|crank\|by\)_.*//; s/_by_speed$//; s/_[0-9]*$//')
+    case $2 in gauge) stem=strains ;; esac
+    case ,$only, in *,"$stem",* | *,"$2",*) ;; *) return 1 ;; esac
+}
+
 # add FIGURE KIND TABLE [ASKED [OTHERS]]: see figure.gp
 add() {
+    asked_for "$1" "$2" || return 0
     sound "$1" "$3" ${5-} && complete "$1" "$3" || return 0
     printf '%s\n' "$1|$2|$3|${4-}|${5-}" >> "$new/plan"
 }
@@ -328,6 +431,10 @@ plan_speeds() {
     n=$(printf '%s\n' "$speeds" | wc -l)
     speed_names=$(printf '%s\n' "$speeds" | named)
     [ "$4" = - ] || speeds=$(ask "moving speed $(echo "$4" | tr , ' ')" "$3")
+    if [ $each = no ] && [ "$(echo "$speeds" | wc -w)" -gt 4 ] && [ $figures = figures ]; then
+        add "$1" "$2" "$3" "$(echo $speeds | tr ' ' ';')" "${5-}"
+        return
+    fi
     for speed in $speeds; do
         name=$1
         [ "$n" -eq 1 ] || name=$1_speed_$(printf '%s\n' "$speed_names" | awk -v speed="$speed" '$1 == speed { print $2; exit }')
@@ -370,8 +477,8 @@ plan_table() {
 plan_frequencies() {
     [ $linkage != structure ] || return 0
     needed=+error
-    [ $errors = yes ] && ask facts frequencies.dat | grep -q 'col_error[1-9]' && plan_speeds errors errors frequencies.dat -
-    have_modes || return 0
+    [ $errors = yes ] && several frequencies.dat && ask facts frequencies.dat | grep -q 'col_error[1-9]' && plan_speeds errors errors frequencies.dat -
+    have_modes && several frequencies.dat || return 0
     needed=+f
     plan_speeds frequencies frequencies frequencies.dat -
     [ "$n" -gt 1 ] || return 0
@@ -436,20 +543,21 @@ plan_cycle() {
         needed='shaking_x shaking_y'
         shaking=shaking.dat
         [ ! -f balance.dat ] || shaking=balance.dat
-        have "$shaking" && plan_speeds shaking_force shaking_force "$shaking" shaking_x,shaking_y
+        have "$shaking" && several "$shaking" && plan_speeds shaking_force shaking_force "$shaking" shaking_x,shaking_y
         needed=
         # Where only the shaking force is balanced the remarks of the table say all.
         [ ! -f balance.dat ] || ! grep -q '^# rms over a turn' balance.dat || plan_balance balance.dat
     fi
 }
 
-plan_balance() { plan_speeds balance balance "$1" shaking_x,shaking_y,shaking_moment,torque,balanced_moment,balanced_torque; }
+plan_balance() { ! several "$1" || plan_speeds balance balance "$1" shaking_x,shaking_y,shaking_moment,torque,balanced_moment,balanced_torque; }
 
 # is_angle TABLE: its positions are angles.
 is_angle() { ask facts "$1" | grep -q "unit_crank = 'deg'"; }
 
 # Angles always; what stands still has no curve worth drawing.
 plan_kinematics() {
+    several kinematics.dat || return 0
     for of in angles:theta velocities:omega accelerations:alpha; do
         needed="${of#*:}3 ${of#*:}4"
         case $of in
@@ -501,7 +609,7 @@ plan_four_bar() {
     [ -z "$balance" ] || plan_balance "${over}balance.dat"
     if [ -z "$over" ] && { [ -n "$balance" ] || have reactions.dat; }; then
         needed='shaking_x shaking_y'
-        plan_speeds shaking_force shaking_force "${balance:-reactions.dat}" shaking_x,shaking_y
+        several "${balance:-reactions.dat}" && plan_speeds shaking_force shaking_force "${balance:-reactions.dat}" shaking_x,shaking_y
         needed=
     fi
 }
@@ -650,7 +758,7 @@ if [ ! -s "$new/plan" ]; then
     [ $figures = figures ] ||
         fail "$outdir has nothing to animate: animations need REPORT kinematics, motion or shapes"
     [ $linkage != structure ] || fail "$outdir has nothing to draw: of a structure modes are drawn (REPORT shapes)"
-    fail "$outdir has no table that a figure can be drawn from"
+    fail "$outdir has no table that a figure can be drawn from${only:+ of ${only#,}}; curves need several positions"
 fi
 
 # The plan becomes calls of the scripts, dealt out to two runs of gnuplot (starting one for each figure takes longer).
@@ -668,10 +776,18 @@ DECK=${PWD##*/} awk -v new="$new" -v animated="${figures#figures}" "$quoting"'
         n = split($0, part, "|")
         name = part[1]
         if (!(name in file)) file[name] = name
-        call = "call " quoted(ENVIRON["PLOTS"] "/figure.gp") " " quoted(part[3]) " " quoted(new "/" file[name]) " " quoted(part[2])
-        for (i = 4; i <= n; i++) call = call " " quoted(part[i])
+        # The figures of several speeds are cells of one page, see style.gp.
+        cells = split(part[4], asked, ";")
+        calls_of = ""
+        for (pass = cells > 1 ? 1 : 2; pass <= 2; pass++) for (cell = 1; cell == 1 || cell <= cells; cell++) {
+            if (cells > 1) calls_of = calls_of "cells = " cells "; cell = " cell "; cell_pass = " pass "; "
+            calls_of = calls_of "call " quoted(ENVIRON["PLOTS"] "/figure.gp") " " quoted(part[3]) " " quoted(new "/" file[name]) " " quoted(part[2]) \
+                " " quoted(asked[cell])
+            for (i = 5; i <= n; i++) calls_of = calls_of " " quoted(part[i])
+            calls_of = calls_of " " quoted(number[name]) " " quoted(remark[name]) "; "
+        }
         run = FNR % 2
-        print "set print " quoted(new "/at" run) "; print " ++calls[run] "; set print; " call, quoted(number[name]), quoted(remark[name]) > (new "/draw" run)
+        print "set print " quoted(new "/at" run) "; print " ++calls[run] "; set print; " calls_of > (new "/draw" run)
         print file[name] > (new "/names" run)
     }' "$PLOTS/thesis_figures.txt" "$new/plan" || fail 'awk failed'
 
@@ -706,18 +822,32 @@ cat "$new"/undrawn? 2> /dev/null | sort > "$new/undrawn"
 [ $first_status -eq 0 ] && [ $second_status -eq 0 ] && ! cmp -s "$new/sorted" "$new/undrawn" ||
     fail "gnuplot failed: $outdir/$figures is left as it was"
 
+overlay=0
+IFS=$newline
+for one in $overlays; do
+    IFS=$IFS_before
+    overlay=$((overlay + 1))
+    grep -qx $overlay "$new/overlaid" 2> /dev/null ||
+        fail "--overlay $one: no figure of $outdir has these axes; expected headings and units as in its tables, such as crank [deg] and torque [N.m]" 2
+done
+IFS=$IFS_before
+
 # Two runs into one folder: one after the other from here on.
 exec 9< . && flock 9 2> /dev/null
 mkdir -p $figures || fail "cannot write into $outdir/$figures"
 if [ -f $figures/drawn.txt ]; then
     while IFS= read -r name; do
         case $name in
-            '' | '#'* | */*) ;;
-            *) rm -f "$figures/$name" ;;
+            '' | '#'* | */*) continue ;;
+            *".${format:-png}" | *.gif) [ -n "$only" ] || { [ "${name##*.}" = gif ] && [ "${format:-png}" != png ]; } || rm -f "$figures/$name" ;;
         esac
+        [ ! -f "$figures/$name" ] || grep -qxF -e "${name%.*}" "$new/sorted" && [ "${name##*.}" = "${format:-png}" ] || printf '%s\n' "$name" >> "$new/kept"
     done < $figures/drawn.txt
 fi
-echo '# Drawn by draw_figures.sh, which removes these files when it draws again.' > "$new/drawn.txt"
+{
+    echo '# Drawn by draw_figures.sh, which removes these files when it draws again in their format.'
+    cat "$new/kept" 2> /dev/null
+} > "$new/drawn.txt"
 while IFS= read -r name; do
     ! grep -qxF -e "$name" "$new/undrawn" || continue
     drawn=
@@ -725,12 +855,13 @@ while IFS= read -r name; do
         [ -s "$new/$name.$ending" ] || continue
         drawn=$name.$ending
         printf '%s\n' "$drawn" >> "$new/drawn.txt"
+        printf '%s\n' "$drawn" >> "$new/drawn_now"
         mv -f "$new/$drawn" $figures/ || fail "cannot write into $outdir/$figures"
     done
     [ -n "$drawn" ] || printf '%s\n' "$name" >> "$new/undrawn"
 done < "$new/sorted"
-cp "$new/drawn.txt" $figures/drawn.txt || fail "cannot write into $outdir/$figures"
-sed -n "/^#/!p" $figures/drawn.txt | while IFS= read -r name; do
+sort -u "$new/drawn.txt" > $figures/drawn.txt || fail "cannot write into $outdir/$figures"
+sort "$new/drawn_now" 2> /dev/null | while IFS= read -r name; do
     printf '%s/%s/%s\n' "$outdir" $figures "$name"
 done
 [ ! -s "$new/undrawn" ] || fail "not drawn, since gnuplot failed:$(sort -u "$new/undrawn" | while IFS= read -r name; do printf ' %s/%s/%s' "$outdir" $figures "$name"; done)"

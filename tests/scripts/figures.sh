@@ -198,7 +198,8 @@ END_OF_DECK
   speeds="lagrange_speed_0 lagrange_speed_0.5 forces_speed_0.5 reactions_speed_0.5 shaking_force_speed_0.5"
   angles="kinematics_accelerations kinematics_angles kinematics_velocities"
   drawn dead figures coupler_curve linkage $angles point_rates_speed_0.5 $speeds || return 1
-  drawn one figures $angles $speeds
+  # Of one position there is no curve.
+  drawn one figures forces_speed_0.5
 }
 
 modes_swing() {

@@ -55,7 +55,13 @@ wrong_options() {
     refused "--errors takes no value: --errors=1" --errors=1 "$scratch/moves" &&
     refused "--help takes no value" --help= "$scratch/moves" &&
     refused "unknown option --formt=svg" --formt=svg "$scratch/moves" &&
-    refused "--animate takes no --format, --size or --errors" --animate --format svg "$scratch/moves" &&
+    refused "--animate takes no --format, --size, --errors, --each, --only or --overlay" --animate --format svg "$scratch/moves" &&
+    refused "--format png,gif: png, svg or pdf" --format png,gif "$scratch/moves" &&
+    refused "--format png,: png, svg or pdf" --format png, "$scratch/moves" &&
+    refused "--only camp: expected one of balance bearings branches campbell" --only motion,camp "$scratch/moves" &&
+    refused "--style $scratch/nowhere: no such file; expected one with commands of gnuplot" --style "$scratch/nowhere" "$scratch/moves" &&
+    refused "--overlay points.csv:1: expected FILE:X:Y" --overlay points.csv:1 "$scratch/moves" &&
+    refused "no file $scratch/nowhere; expected FILE:X:Y" --overlay "$scratch/nowhere:1:2" "$scratch/moves" &&
     refused "options stand before the folder: --errors" "$scratch/moves" --errors &&
     refused "options stand before the folder: --size=3" "$scratch/moves" --size=3 &&
     refused "no folder " "" &&
@@ -66,7 +72,7 @@ wrong_options() {
 
 help_and_version() {
   plot 0 --help && silent || return 1
-  for option in --animate --errors --format --size --no-titles --help --version; do
+  for option in --animate --each --errors --format --only --overlay --size --style --no-titles --help --version; do
     grep -q -e "$option" "$scratch/stdout" || { echo "the help has no $option"; return 1; }
   done
   plot 0 --version && [ "$(cat "$scratch/stdout")" = "flexmech-plot $("$program" --version | sed 's/flexmech //')" ] || cat "$scratch/stdout"
@@ -99,13 +105,16 @@ several_folders() {
   plot 1 "$scratch/moves" "$scratch/nowhere" "$scratch/swings" && says "no folder" && [ "$(wc -l <"$scratch/stdout")" -eq 2 ]
 }
 
-# A figure has the size that was asked for, whatever its format; those of another format are gone.
+# A figure has the size that was asked for, whatever its format; those of another format stay.
 formats() {
   folder=$scratch/swings/figures
+  rm -rf "$folder"
+  there=drawn.txt
   for format in png svg pdf; do
     for size in 900x700 160x100mm; do
       plot 0 --format $format --size $size "$scratch/swings" && silent || return 1
-      [ "$(ls "$folder")" = "$(printf 'drawn.txt\nfrequencies.%s' $format)" ] || { ls "$folder"; return 1; }
+      case $there in *.$format*) ;; *) there="$there frequencies.$format" ;; esac
+      [ "$(ls "$folder")" = "$(printf '%s\n' $there | LC_ALL=C sort)" ] || { ls "$folder"; return 1; }
       python3 - "$folder/frequencies.$format" $size <<'END_OF_PYTHON' || return 1
 import re
 import struct
@@ -182,6 +191,7 @@ other_terminals() {
     chmod +x "$scratch/bin/gnuplot"
     case $terminal in pdfcairo) ending=pdf ;; *) ending=$terminal ;; esac
     for folder in moves swings still varied; do
+      rm -rf "$scratch/$folder/figures"
       PATH=$scratch/bin:$PATH plot 0 --errors "$scratch/$folder" && says "drawing with $terminal" || return 1
       [ "$(wc -l <"$scratch/stderr")" -eq 1 ] || { cat "$scratch/stderr"; return 1; }
       for file in $(sed '/^#/d; /gif$/d' "$scratch/$folder/figures/drawn.txt"); do
@@ -313,7 +323,7 @@ signals() {
   [ $found -eq 0 ] && absent "$scratch/moves/.figures."*
 }
 
-# Several runs at once, which take long to move their figures: the folder has all those of the one that ended last.
+# Several runs at once, which take long to move their figures: the folder has all of each, and knows them.
 at_once() {
   rm -rf "$scratch/spoiled"
   mkdir -p "$scratch/moving"
@@ -324,9 +334,10 @@ at_once() {
     PATH=$scratch/moving:$PATH sh plots/flexmech-plot --format $format "$scratch/spoiled" >"$scratch/drawn.$format" 2>&1 &
   done
   wait
-  ls "$scratch/spoiled/figures" | grep -v -e drawn.txt -e gif >"$scratch/names"
-  [ "$(wc -l <"$scratch/names")" -eq 6 ] && sed '/^#/d; /gif/d' "$scratch/spoiled/figures/drawn.txt" | LC_ALL=C sort | cmp - "$scratch/names" &&
-    sed '/gif/d; s/.*figures.//' "$scratch/drawn.$(sed '1s/.*\.//; 1q' "$scratch/names")" | LC_ALL=C sort | cmp - "$scratch/names" &&
+  ls "$scratch/spoiled/figures" | grep -v drawn.txt | LC_ALL=C sort >"$scratch/names"
+  [ "$(wc -l <"$scratch/names")" -eq 19 ] || { cat "$scratch/names"; return 1; }
+  sed '/^#/d' "$scratch/spoiled/figures/drawn.txt" | LC_ALL=C sort | cmp - "$scratch/names" &&
+    sed 's/.*figures.//' "$scratch/drawn.svg" "$scratch/drawn.pdf" "$scratch/drawn.png" | LC_ALL=C sort | cmp - "$scratch/names" &&
     absent "$scratch/spoiled/.figures."*
 }
 

@@ -33,7 +33,7 @@ TABLE_SHARES = 4  # of the decks of tests/tables/
 # `make check` is to take eight minutes on two processors, and compiling the program and the tests takes six of them. So it compiles one
 # build, as users have it, and what is below, and all of the debug build, wait for `make check-all`.
 SLOW_DECKS = ["campbell", "damped_engine", "stability", "strains", "transient"]  # of inputs/
-SLOW_GROUPS = ["bench", "failed_variants", "figure_extents", "figures", "flexmech_plot", "interruption", "job_scripts", "memory", "mpi",
+SLOW_GROUPS = ["bench", "failed_variants", "figure_details", "figure_extents", "figures", "flexmech_plot", "interruption", "job_scripts", "memory", "mpi",
                "numbers_of_documents", "parts", "random_linkages", "reports", "resume", "running", "stability", "summary", "threads",
                "vibrations"]  # scripts and procedures below
 SLOW_TESTS = [module + " " for module in (
@@ -44,7 +44,7 @@ SLOW_TESTS = [module + " " for module in (
 # Seconds of jobs that take more than others: these are begun first, or one processor would wait for another in the end.
 SECONDS = {"unit_tests debug": 22, "unit_tests release": 8, "script release figures": 257, "numbers_of_documents": 108, "script release memory": 96,
            "script release parts": 84, "script release interruption": 83, "random_linkages": 80, "script release tables": 78,
-           "script release summary": 76, "script release figure_extents": 75, "script release flexmech_plot": 73, "script release mpi": 64,
+           "script release summary": 76, "script release figure_extents": 75, "script release figure_details": 74, "script release flexmech_plot": 73, "script release mpi": 64,
            "script release job_scripts": 54, "script release resume": 51, "script release running": 49, "script release stability": 39,
            "vibrations": 38, "script release failed_variants": 28, "goldens": 28, "assemblies": 26, "script release deck_files": 21,
            "script release options": 19, "script release csv": 16, "script release echo_deck": 13, "script release response": 11}
