@@ -1,4 +1,4 @@
-# Program, plots, library, manual pages and completions below DESTDIR/PREFIX.
+# Program, commands, plots, library, manual pages and completions below DESTDIR/PREFIX.
 .PHONY: install
 
 there = $$DESTDIR$$PREFIX
@@ -10,10 +10,15 @@ install:
 	    "$(share)/bash-completion/completions" "$(share)/zsh/site-functions" "$(share)/fish/vendor_completions.d"
 	install -m 755 -- $(program) "$(there)/bin/flexmech"
 	cp -R -- plots library "$(share)/flexmech/"
-	install -m 755 -- plots/flexmech-plot "$(there)/bin/flexmech-plot"
+	install -d -- "$(share)/flexmech/exchange/flexmech_files"
+	install -m 644 -- exchange/flexmech_files/*.py "$(share)/flexmech/exchange/flexmech_files"
+	install -m 755 -- plots/flexmech-plot exchange/flexmech-import exchange/flexmech-export "$(there)/bin"
 	$(program) --man > "$(share)/man/man1/flexmech.1"
 	$(program) --completion bash > "$(share)/bash-completion/completions/flexmech"
 	$(program) --completion zsh > "$(share)/zsh/site-functions/_flexmech"
 	$(program) --completion fish > "$(share)/fish/vendor_completions.d/flexmech.fish"
-	sh plots/flexmech-plot --help | awk -v version="$$($(program) --version)" -f plots/manual_page.awk > "$(share)/man/man1/flexmech-plot.1"
-	sh plots/flexmech-plot --help | awk -f plots/completion.awk > "$(share)/bash-completion/completions/flexmech-plot"
+	for command in plots/flexmech-plot exchange/flexmech-import exchange/flexmech-export; do \
+	    name=$${command##*/}; help=$$("$$command" --help) || exit; \
+	    printf '%s\n' "$$help" | awk -v version="$$($(program) --version)" -f plots/manual_page.awk > "$(share)/man/man1/$$name.1" && \
+	    printf '%s\n' "$$help" | awk -f plots/completion.awk > "$(share)/bash-completion/completions/$$name" || exit; \
+	done

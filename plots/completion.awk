@@ -1,9 +1,12 @@
-# The completion of flexmech-plot in bash, from its --help:
+# The completion of flexmech-plot, flexmech-import and flexmech-export in bash, from its --help:
 #   flexmech-plot --help | awk -f completion.awk > flexmech-plot
 # An option with a value has it in capitals behind its name; values that are few stand first in what the option is for, as
-# in `png, svg or pdf; …`.
+# in `png, svg or pdf; …`. Other words are folders, where the usage says FOLDER, or files.
 
-/^usage: / { name = $2 }
+/^usage: / {
+    name = $2
+    words_are = $0 ~ /FOLDER/ ? "-d" : "-f"
+}
 
 /^  -/ {
     count = split($0, words, /[ ,]+/)
@@ -42,7 +45,7 @@ END {
     print "    mapfile -t COMPREPLY < <(compgen -W '" substr(options, 2) "' -- \"$word\")"
     print "  else"
     print "    compopt -o filenames"
-    print "    mapfile -t COMPREPLY < <(compgen -d -- \"$word\")"
+    print "    mapfile -t COMPREPLY < <(compgen " words_are " -- \"$word\")"
     print "  fi"
     print "}"
     print "complete -F " function_name " " name

@@ -1,7 +1,13 @@
-# The manual page of flexmech-plot, from its --help:
+# The manual page of flexmech-plot, flexmech-import and flexmech-export, from its --help:
 #   flexmech-plot --help | awk -v version="flexmech 1.2.3" -f manual_page.awk > flexmech-plot.1
 # The help has a line `usage: …`, paragraphs, options indented by two blanks with what they are for behind two blanks, and
 # a line `Exit status: …`.
+
+BEGIN {
+    purpose["flexmech-plot"] = "draws figures of what flexmech has computed"
+    purpose["flexmech-import"] = "makes a deck of another program's file"
+    purpose["flexmech-export"] = "writes the linkage of a deck as SVG or DXF"
+}
 
 # Hyphens as they are typed, and no dot or quote that man would take for a macro.
 function escaped(words) {
@@ -19,7 +25,7 @@ function section(title) {
     name = $2
     printf ".TH %s 1 \"\" \"%s\" \"User Commands\"\n", toupper(name), version
     section("NAME")
-    print escaped(name) " \\- draws figures of what flexmech has computed"
+    print escaped(name) " \\- " escaped(purpose[name])
     section("SYNOPSIS")
     sub(/^usage: [^ ]* */, "")
     print ".B " escaped(name)

@@ -117,7 +117,22 @@ install_puts_them() {
     cmp "$scratch/flexmech.zsh" "$share/zsh/site-functions/_flexmech" &&
     cmp "$scratch/flexmech.fish" "$share/fish/vendor_completions.d/flexmech.fish" &&
     grep -q "^.TH FLEXMECH-PLOT 1 .*$(build/release/flexmech --version)" "$share/man/man1/flexmech-plot.1" &&
-    grep -q "^complete -F _flexmech_plot flexmech-plot" "$share/bash-completion/completions/flexmech-plot"
+    grep -q "^complete -F _flexmech_plot flexmech-plot" "$share/bash-completion/completions/flexmech-plot" &&
+    grep -q "^.TH FLEXMECH-IMPORT 1 .*$(build/release/flexmech --version)" "$share/man/man1/flexmech-import.1" &&
+    grep -q "makes a deck of another program's file" "$share/man/man1/flexmech-import.1" &&
+    grep -q "^complete -F _flexmech_export flexmech-export" "$share/bash-completion/completions/flexmech-export"
+}
+
+# The commands of other programs' files, from where they are installed.
+installed_exchange() {
+  (cd "$scratch" && PATH=/usr/bin:/bin root/opt/flexmech/bin/flexmech-import "$1" && \
+    root/opt/flexmech/bin/flexmech-export dxf --at 30 "$2") >"$scratch/stdout" 2>"$scratch/stderr" || { cat "$scratch/stderr"; return 1; }
+  silent && grep -q "^DRIVE    L0$" "$scratch/stdout" && grep -q "^CIRCLE$" "$scratch/stdout" || return 1
+  ln -s root/opt/flexmech/bin/flexmech-import "$scratch/link"
+  [ "$("$scratch/link" --version)" = "flexmech-import $(build/release/flexmech --version | sed 's/flexmech //')" ] || { "$scratch/link" --version; return 1; }
+  cp "$scratch/root/opt/flexmech/bin/flexmech-import" "$scratch/alone"
+  "$scratch/alone" "$1" 2>"$scratch/stderr"
+  [ $? -eq 1 ] && says "make install"
 }
 
 check "every option has its entry on the manual page" has_options
@@ -146,3 +161,4 @@ for shell in zsh fish; do
 done
 check "completion of an unknown shell" refuses
 check "make install installs manual page and completions" install_puts_them
+check "flexmech-import and flexmech-export, installed" installed_exchange "$(pwd)/tests/exchange/planet.linkage2" "$(pwd)/inputs/quick_return.deck"
