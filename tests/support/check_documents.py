@@ -3,7 +3,8 @@
 
     check_documents.py
 
-docs/deck.md has to name every card, key, report, table and option that the program lists; paths and links in README.md and
+docs/deck.md has to name every card, key, report, table and option that the program lists, docs/import.md the options of the
+commands for files of other programs; paths and links in README.md and
 docs/ have to lead somewhere, a file has to have the procedures that are said to be in it, and src/ those that
 docs/architecture.md calls. The program, CHANGELOG.md and CITATION.cff have to have the same version.
 
@@ -18,7 +19,7 @@ from glob import glob
 
 from deck_language import PROGRAMS, language
 
-FOLDERS = "src|tests|docs|inputs|plots|library|make"
+FOLDERS = "src|tests|docs|inputs|plots|exchange|library|make"
 
 
 def read(path):
@@ -46,6 +47,14 @@ def known_of_deck():
     text = subprocess.run(["sh", os.path.join("plots", "flexmech-plot"), "--help"], capture_output=True, check=True, text=True).stdout
     for option in re.findall(r"^  (--[\w-]+)", text, re.MULTILINE):
         yield f"option {option} of flexmech-plot", rf"`{option}\b"
+
+
+def known_of_exchange():
+    """What docs/import.md must have: the options of the commands for files of other programs."""
+    for command in ("flexmech-import", "flexmech-export"):
+        text = subprocess.run([os.path.join("exchange", command), "--help"], capture_output=True, check=True, text=True).stdout
+        for option in re.findall(r"(?<=[ ,])(--?[a-z][\w-]*)", "\n".join(re.findall(r"^  -.*", text, re.MULTILINE))):
+            yield f"option {option} of {command}", rf"`{option}\b"
 
 
 def faults_of_versions(program):
@@ -147,9 +156,10 @@ def main():
         wrong = wrong or why is not None
         print(f"ok {what}" if why is None else f"not ok {what}: {why}")
 
-    deck = read(os.path.join("docs", "deck.md"))
-    for what, pattern in known_of_deck():
-        tell(f"docs/deck.md, {what}", None if re.search(pattern, deck) else f"nothing matches {pattern}")
+    for name, known in (("deck.md", known_of_deck()), ("import.md", known_of_exchange())):
+        text = read(os.path.join("docs", name))
+        for what, pattern in known:
+            tell(f"docs/{name}, {what}", None if re.search(pattern, text) else f"nothing matches {pattern}")
     found = list(faults_of_versions(next(path for path in PROGRAMS if os.path.exists(path)))) + \
         list(faults_of_citation(read("CITATION.cff")))
     for why in found or [None]:

@@ -19,9 +19,9 @@ FOLDER = os.path.join("tests", "exchange")
 NEAR = 1e-6  # of places, in the unit of length: files have six decimals
 
 
-def command(name, *arguments, given=None):
+def command(name, *arguments, given=None, program=PROGRAM):
     return subprocess.run([os.path.join("exchange", name), *arguments], capture_output=True, check=False, text=True, input=given,
-                          env={**os.environ, "FLEXMECH": PROGRAM})
+                          env={**os.environ, "FLEXMECH": program})
 
 
 def check(name, test, *arguments):
@@ -165,6 +165,17 @@ FILES = {
     "pylinkage.json": tracker, "arc.json": arc, "linkage_sim.json": assembled, "formula.json": formula}
 
 
+def document():
+    """The deck in docs/import.md is that of the file there."""
+    with open(os.path.join("docs", "import.md"), encoding="utf-8") as text:
+        shown = [re.sub(r"(?m)^    ", "", block) for block in re.findall(r"(?m)^    (?:<linkage2>|TITLE )(?:.*\n(?:    |\n(?=    )))*.*\n", text.read())]
+    path = os.path.join(SCRATCH, "press.linkage2")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(shown[0])
+    made = command("flexmech-import", path)
+    return None if made.stdout.replace(path, "press.linkage2") == shown[1] else f"it has\n{shown[1]}\nand not\n{made.stdout}{made.stderr}"
+
+
 # What is wrong with a file.
 
 def refused(text, told):
@@ -270,8 +281,23 @@ def address_in_place():
         with open(path, "w", encoding=encoding) as file:
             file.write(text.replace("tip of rocker", "tip of rôcker"))
         made = command("flexmech-import", path)
-        if made.returncode or "LINK     L2       tip_of_r_cker P3 P5" not in made.stdout:
+        if made.returncode or not re.search(r"(?m)^LINK +L2 +tip_of_rocker P3 P5$", made.stdout):
             return f"{encoding}: {made.stderr or made.stdout}"
+    return None
+
+
+def positions():
+    """Where the linkage closes, as the program knows; without it all around. A crank of 4 under a coupler of 3 and a follower of 2."""
+    joints = "ground,a,R,0,0\na,b,R,0,4\nb,c,R,3,4\nc,ground,R,3,2\n"
+    low, high = (math.degrees(math.atan2(2, 3) + math.acos((13 + 16 - far**2)/(2*math.sqrt(13)*4))) for far in (3 - 2, 3 + 2))
+    for program, ends in ((PROGRAM, None), ("nowhere", ("0", "360", "5"))):
+        made = command("flexmech-import", "-", given=joints, program=program)
+        found = re.search(r"(?m)^CRANK +(\S+) to (\S+) step (\S+)$", made.stdout)
+        if made.returncode or not found or ends and found.groups() != ends:
+            return made.stderr or f"{program}: {found}"
+        least, greatest, step = map(float, found.groups())
+        if not ends and not (low < least < low + 2*step and high - 2*step < greatest < high):
+            return f"{found[0]} in place of {low} to {high}"
     return None
 
 
@@ -371,7 +397,7 @@ def main():
         check(f"motion of {file}", follows, name, places)
     for name, (text, told) in REFUSED.items():
         check(f"refused: {name}", refused, text, told)
-    for test in (no_overwriting, wrong_words, address_in_place, dxf_lines, svg_size, export_refused, export_laws_and_structures, options_of_help):
+    for test in (document, no_overwriting, wrong_words, address_in_place, positions, dxf_lines, svg_size, export_refused, export_laws_and_structures, options_of_help):
         check(test.__name__.replace("_", " "), test)
 
 
