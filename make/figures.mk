@@ -1,5 +1,5 @@
 # Runs of decks, and their figures.
-.PHONY: thesis run figures animate
+.PHONY: thesis run figures animate report
 
 thesis: all
 	$(program) inputs/mechanism1.deck inputs/mechanism2.deck
@@ -21,7 +21,7 @@ figure_options = $${FORMAT:+--format "$$FORMAT"} $${SIZE:+--size "$$SIZE"} $$([ 
                  $$([ "$$ERRORS" != yes ] || echo --errors)
 draw = FLEXMECH_PLOT=make sh plots/draw_figures.sh
 # What the program has written of the deck: its name without folder and ending.
-draw_deck = @name=$${DECK\#\#*/}; stem=$${name%.*}; $(draw) $(1) -- "outputs/$${stem:-$$name}"
+of_deck = @name=$${DECK\#\#*/}; stem=$${name%.*}; $(1) -- "outputs/$${stem:-$$name}"
 
 figures: all
 	$(need_deck)
@@ -30,9 +30,14 @@ figures: all
 	@$(draw) $(figure_options) --help > /dev/null
 	@# Exit status 1: some rows could not be computed. The figures show where.
 	$(program) -- "$$DECK" || test $$? -eq 1
-	$(call draw_deck,$(figure_options))
+	$(call of_deck,$(draw) $(figure_options))
 
 animate: all
 	$(need_deck)
 	$(program) -- "$$DECK" || test $$? -eq 1
-	$(call draw_deck,--animate)
+	$(call of_deck,$(draw) --animate)
+
+report: all
+	$(need_deck)
+	$(program) -- "$$DECK" || test $$? -eq 1
+	$(call of_deck,plots/flexmech-report)

@@ -1,7 +1,7 @@
-# The completion of flexmech-plot, flexmech-import and flexmech-export in bash, from its --help:
+# The completion of flexmech-plot, flexmech-report, flexmech-import and flexmech-export in bash, from its --help:
 #   flexmech-plot --help | awk -f completion.awk > flexmech-plot
-# An option with a value has it in capitals behind its name; values that are few stand first in what the option is for, as
-# in `png, svg or pdf; …`. Other words are folders, where the usage says FOLDER, or files.
+# An option with a value has it in capitals behind its name, FILE if it is that of a file; values that are few stand first in
+# what the option is for, as in `png, svg or pdf; …`. Other words are folders, where the usage says FOLDER, or files.
 
 /^usage: / {
     name = $2
@@ -19,6 +19,7 @@
     gsub(/, | or /, " ", choices)
     valued[++number] = words[2]
     of[number] = choices
+    is_file[number] = words[i] == "FILE"
 }
 
 END {
@@ -38,6 +39,7 @@ END {
     for (i = 1; i <= number; i++) {
         print "    " valued[i] ")"
         if (of[i] != "") print "      mapfile -t COMPREPLY < <(compgen -W '" of[i] "' -- \"$word\")"
+        if (is_file[i]) print "      compopt -o filenames\n      mapfile -t COMPREPLY < <(compgen -f -- \"$word\")"
         print "      return ;;"
     }
     print "  esac"

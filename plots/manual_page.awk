@@ -1,13 +1,7 @@
-# The manual page of flexmech-plot, flexmech-import and flexmech-export, from its --help:
+# The manual page of flexmech-plot, flexmech-report, flexmech-import and flexmech-export, from its --help:
 #   flexmech-plot --help | awk -v version="flexmech 1.2.3" -f manual_page.awk > flexmech-plot.1
-# The help has a line `usage: …`, paragraphs, options indented by two blanks with what they are for behind two blanks, and
-# a line `Exit status: …`.
-
-BEGIN {
-    purpose["flexmech-plot"] = "draws figures of what flexmech has computed"
-    purpose["flexmech-import"] = "makes a deck of another program's file"
-    purpose["flexmech-export"] = "writes the linkage of a deck as SVG or DXF"
-}
+# The help has a line `usage: …`, paragraphs, of which the first begins with what the command does and a comma or colon, options
+# indented by two blanks with what they are for behind two blanks, and a line `Exit status: …`.
 
 # Hyphens as they are typed, and no dot or quote that man would take for a macro.
 function escaped(words) {
@@ -24,12 +18,8 @@ function section(title) {
 /^usage: / {
     name = $2
     printf ".TH %s 1 \"\" \"%s\" \"User Commands\"\n", toupper(name), version
-    section("NAME")
-    print escaped(name) " \\- " escaped(purpose[name])
-    section("SYNOPSIS")
     sub(/^usage: [^ ]* */, "")
-    print ".B " escaped(name)
-    print escaped($0)
+    synopsis = $0
     next
 }
 
@@ -54,7 +44,16 @@ function section(title) {
 /^$/ { next }
 
 {
-    if (open == "SYNOPSIS") section("DESCRIPTION")
+    if (!open) {
+        section("NAME")
+        what = tolower(substr($0, 1, 1)) substr($0, 2)
+        sub(/[,:].*/, "", what)
+        print escaped(name) " \\- " escaped(what)
+        section("SYNOPSIS")
+        print ".B " escaped(name)
+        print escaped(synopsis)
+        section("DESCRIPTION")
+    }
     sub(/^ */, "")
     print escaped($0)
 }

@@ -119,7 +119,7 @@ install_puts_them() {
     grep -q "^.TH FLEXMECH-PLOT 1 .*$(build/release/flexmech --version)" "$share/man/man1/flexmech-plot.1" &&
     grep -q "^complete -F _flexmech_plot flexmech-plot" "$share/bash-completion/completions/flexmech-plot" &&
     grep -q "^.TH FLEXMECH-IMPORT 1 .*$(build/release/flexmech --version)" "$share/man/man1/flexmech-import.1" &&
-    grep -q "makes a deck of another program's file" "$share/man/man1/flexmech-import.1" &&
+    grep -q "makes a deck of a linkage that was drawn in another program" "$share/man/man1/flexmech-import.1" &&
     grep -q "^complete -F _flexmech_export flexmech-export" "$share/bash-completion/completions/flexmech-export"
 }
 

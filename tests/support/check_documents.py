@@ -44,9 +44,10 @@ def known_of_deck():
     text = subprocess.run([program, "--help"], capture_output=True, check=True, text=True).stdout
     for option in re.findall(r"^  (--[\w-]+)", text, re.MULTILINE):
         yield f"option {option}", rf"`{option}\b"
-    text = subprocess.run(["sh", os.path.join("plots", "flexmech-plot"), "--help"], capture_output=True, check=True, text=True).stdout
-    for option in re.findall(r"^  (--[\w-]+)", text, re.MULTILINE):
-        yield f"option {option} of flexmech-plot", rf"`{option}\b"
+    for command in ("flexmech-plot", "flexmech-report"):
+        text = subprocess.run([os.path.join("plots", command), "--help"], capture_output=True, check=True, text=True).stdout
+        for option in re.findall(r"^  (--?[\w-]+)", text, re.MULTILINE):
+            yield f"option {option} of {command}", rf"`{command}[^`\n]* {option}\b|`{option}\b"
 
 
 def known_of_exchange():
