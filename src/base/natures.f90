@@ -8,7 +8,7 @@ module natures
   implicit none (type, external)
   private
 
-  public :: nature_t, length_nature, angle_nature, all_natures, are_alike
+  public :: nature_t, length_nature, angle_nature, all_natures, are_alike, is_angular
   public :: of_value, of_rate, of_acceleration, of_effort
 
   !> Places in `words`.
@@ -42,5 +42,13 @@ contains
 
     are = all(natures(2:)%noun == natures(:size(natures) - 1)%noun)
   end function are_alike
+
+  !> Whether it is an angle.
+  elemental function is_angular(nature) result(is)
+    type(nature_t), intent(in) :: nature
+    logical :: is
+
+    is = nature%noun == angle_nature%noun
+  end function is_angular
 
 end module natures

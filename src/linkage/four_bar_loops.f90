@@ -3,7 +3,7 @@
 !! What hangs on their links does not make them others: further pins, links welded on.
 module four_bar_loops
   use kinds, only: wp
-  use linkages, only: drive_of_angle, group_carried, group_dyad, group_turned, linkage_t
+  use linkages, only: group_carried, group_dyad, group_turned, linkage_t
   use pose_types, only: pins_of_body, place_of_pin
   implicit none (type, external)
   private
@@ -31,7 +31,6 @@ contains
 
     if (.not. linkage%has_crank .or. size(linkage%drives) /= 1 .or. size(linkage%sliders) > 0) &
       return
-    if (linkage%drives(1)%kind /= drive_of_angle .or. linkage%drives(1)%against /= 0) return
     if (allocated(linkage%redundancies)) then
       if (size(linkage%redundancies) > 0) return
     end if

@@ -177,8 +177,8 @@ module linkages
   !> What bodies, sliders, turns and drives demand.
   type :: equation_t
     integer :: kind = 0              !! one of the demand_… constants
-    integer :: body = 0              !! of a pin of a body
-    integer :: pin = 0               !! the same
+    integer :: body = 0              !! that it is about; 0: a pin on a fixed line, or a coordinate
+    integer :: pin = 0               !! of the body, of which it gives length or direction; else 0
     real(wp) :: place(2) = 0.0_wp    !! of that pin, from the first one, in the axes of the body [m]
     integer :: number = 0            !! of the slider, turn or drive
     type(coordinate_t) :: coordinate !! that it holds. The terminals of an angle have directions

@@ -5,7 +5,7 @@ module linkage_builder
   use constants, only: degree
   use coordinate_builder, only: list_coordinates
   use drive_cards, only: branch_backward, branch_left, branch_right, drive_card_t, drive_ram, &
-    drive_slider, moves_along
+    drive_slider
   use drawn_cranks, only: starting_cranks
   use drawn_places, only: complete_drawing
   use errors, only: error_t
@@ -20,6 +20,7 @@ module linkage_builder
   use measure_cards, only: measure_along, measure_angle
   use models, only: is_four_bar, is_pin, model_t, report_number, rule_at_change_points, &
     runs_in_time
+  use natures, only: are_alike, is_angular
   use motion_programs, only: program_period
   use name_index, only: find_name, name_index_t, new_name_index
   use named_coordinates, only: measured_coordinate
@@ -464,10 +465,10 @@ contains
         if (card%measure > 0) call take_measured(model, card, link, drive)
         if (i == 1) cycle
         unit = 1.0_wp
-        if (.not. moves_along(card%kind)) unit = 1.0_wp/degree
+        if (is_angular(card%nature)) unit = 1.0_wp/degree
         drive%ratio = card%ratio*unit
-        if (.not. moves_along(model%drives(1)%kind)) drive%ratio = drive%ratio*degree
-        if (moves_along(card%kind) .eqv. moves_along(model%drives(1)%kind)) drive%ratio = card%ratio
+        if (is_angular(model%drives(1)%nature)) drive%ratio = drive%ratio*degree
+        if (are_alike([card%nature, model%drives(1)%nature])) drive%ratio = card%ratio
         drive%phase = card%phase*unit
         ! It moves, and not as the first one does.
         if (drive%has_law) drive%ratio = 1.0_wp
@@ -497,7 +498,7 @@ contains
       end if
       drive%kind = drive_of_coordinate
       drive%coordinate = measured_coordinate(model, card%measure)
-      drive%is_angle = .not. moves_along(card%kind)
+      drive%is_angle = is_angular(card%nature)
       if (measure%kind /= measure_along) return
       do i = 1, size(model%sliders)
         if (.not. same_word(model%sliders(i)%pin%text, measure%places(1)%text)) cycle

@@ -1,6 +1,5 @@
 !> What gives the efforts that move a linkage: the coordinates of ACTUATE cards, or the drives.
 module effort_sources
-  use drive_cards, only: nature_of_drive
   use models, only: model_t
   use named_coordinates, only: find_named_coordinates, named_coordinate_t
   use natures, only: angle_nature, nature_t
@@ -28,7 +27,7 @@ contains
       allocate (sources(size(model%drives)))
       do i = 1, size(sources)
         sources(i)%name = model%drives(i)%subject%text
-        sources(i)%nature = nature_of_drive(model%drives(i)%kind)
+        sources(i)%nature = model%drives(i)%nature
       end do
       return
     end if

@@ -12,7 +12,7 @@ module models
   use balance_cards, only: balance_card_t, shaft_card_t
   use body_cards, only: mass_card_t, point_t
   use card_echo, only: echo_line_t
-  use drive_cards, only: branch_t, drive_angle, drive_card_t, moves_along, nature_of_drive
+  use drive_cards, only: branch_t, drive_angle, drive_card_t
   use effect_cards, only: effects_axial, effects_static
   use friction_cards, only: friction_card_t
   use joint_cards, only: drawn_pin_t, guide_t, slider_card_t, weld_t
@@ -25,7 +25,7 @@ module models
   use measure_cards, only: measure_card_t
   use motion_programs, only: motion_program_t
   use motor_cards, only: motor_t
-  use natures, only: angle_nature, nature_t
+  use natures, only: angle_nature, is_angular, nature_t
   use process_cards, only: over_nothing, process_card_t
   use output_units, only: output_units_t
   use report_cards, only: report_t
@@ -407,7 +407,7 @@ contains
     type(nature_t) :: nature
 
     nature = angle_nature
-    if (size(model%drives) > 0) nature = nature_of_drive(model%drives(1)%kind)
+    if (size(model%drives) > 0) nature = model%drives(1)%nature
   end function nature_of_positions
 
   !> Whether positions and speeds of the deck are those of a slider or a ram, lengths and
@@ -417,7 +417,7 @@ contains
     logical :: drives
 
     drives = .false.
-    if (size(model%drives) > 0) drives = moves_along(model%drives(1)%kind)
+    if (size(model%drives) > 0) drives = .not. is_angular(model%drives(1)%nature)
   end function drives_length
 
   !> Whether the deck has BALANCE cards.

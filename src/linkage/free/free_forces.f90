@@ -8,11 +8,10 @@ module free_forces
   use drive_values, only: drive_rate
   use group_equations, only: find_gradients
   use inertia_loads, only: load_t
-  use joint_forces, only: add_force, joint_forces_t
+  use joint_forces, only: joint_forces_t, take_reaction
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
-  use linkages, only: cross, demand_angle, demand_drive, demand_length, demand_line, &
-    demand_turn, drive_of_length, equation_t, linkage_t
+  use linkages, only: cross, demand_drive, equation_t, linkage_t
   use pose_types, only: pose_t
   use rigid_bodies, only: central_inertia, mass_centre, rigid_body_t
   use whole_systems, only: curvatures, demands, drive_row, rate_along, unknown_count, whole_system_t
@@ -300,18 +299,7 @@ contains
           body) - lambda*partial(k)%by_pin
       end associate
     end do
-    select case (equation%kind)
-    case (demand_length, demand_angle)
-      call add_force(linkage, equation%body, equation%pin, -lambda*partial(2)%by_pin, joints)
-    case (demand_line)
-      joints%guide(equation%number) = lambda
-    case (demand_turn)
-      joints%couple(equation%number) = lambda
-    case (demand_drive)
-      joints%drive(equation%number) = lambda
-      if (linkage%drives(equation%number)%kind == drive_of_length) call add_force(linkage, &
-        linkage%drives(equation%number)%body, partial(2)%pin, -lambda*partial(2)%by_pin, joints)
-    end select
+    call take_reaction(linkage, equation, lambda, partial(size(partial))%by_pin, joints)
   end subroutine put_equation
 
 end module free_forces

@@ -3,13 +3,15 @@ module plan_equations
   use coordinate_types, only: is_across, is_angle
   use coordinates, only: slider_coordinate
   use linkages, only: demand_angle, demand_drive, demand_length, demand_line, demand_turn, &
-    drive_of_angle, drive_of_coordinate, drive_of_length, drive_of_slider, equation_t, linkage_t
+    drive_of_angle, drive_of_coordinate, drive_of_length, drive_of_nothing, drive_of_slider, &
+    equation_t, linkage_t
   use pose_types, only: pins_of_body, place_of_pin
   implicit none (type, external)
   private
 
   public :: pin_equation, length_equation, line_equation, turn_equation, drive_equation, &
-    renew_equations, list_joint_equations, append_equation, is_used, length_drive
+    renew_equations, list_joint_equations, append_drive_equations, append_equation, is_used, &
+    length_drive
 
 contains
 
@@ -55,6 +57,7 @@ contains
 
     equation%kind = demand_line
     equation%number = slider
+    equation%body = linkage%sliders(slider)%body
     equation%coordinate = slider_coordinate(linkage, slider)
     equation%coordinate%kind = is_across
   end function line_equation
@@ -66,6 +69,7 @@ contains
 
     equation%kind = demand_turn
     equation%number = turn
+    equation%body = linkage%turns(turn)%body
     associate (coordinate => equation%coordinate, it => linkage%turns(turn))
       coordinate%kind = is_angle
       coordinate%at%body = [it%against, it%body]
@@ -80,6 +84,7 @@ contains
 
     equation%kind = demand_drive
     equation%number = drive
+    equation%body = linkage%drives(drive)%body
     associate (coordinate => equation%coordinate, it => linkage%drives(drive))
       select case (it%kind)
       case (drive_of_angle)
@@ -90,8 +95,9 @@ contains
       case (drive_of_slider)
         coordinate = slider_coordinate(linkage, it%slider)
       case (drive_of_length)
+        equation%pin = linkage%bodies(it%body)%last_pin
         coordinate%at(1)%body = it%body
-        coordinate%at(2)%pin = linkage%bodies(it%body)%last_pin
+        coordinate%at(2)%pin = equation%pin
       case (drive_of_coordinate)
         coordinate = linkage%coordinates(it%coordinate)
       end select
@@ -145,6 +151,19 @@ contains
       call append_equation(equations, turn_equation(linkage, i))
     end do
   end subroutine list_joint_equations
+
+  !> Adds those of all drives.
+  pure subroutine append_drive_equations(linkage, equations)
+    type(linkage_t), intent(in) :: linkage
+    type(equation_t), allocatable, intent(inout) :: equations(:)
+
+    integer :: k
+
+    do k = 1, size(linkage%drives)
+      if (linkage%drives(k)%kind /= drive_of_nothing) call append_equation(equations, &
+        drive_equation(linkage, k))
+    end do
+  end subroutine append_drive_equations
 
   pure subroutine append_equation(list, equation)
     type(equation_t), allocatable, intent(inout) :: list(:)

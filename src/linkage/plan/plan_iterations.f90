@@ -124,25 +124,13 @@ contains
     allocate (bodies(0))
     do i = 1, size(linkage%redundancies) + size(idle)
       if (i <= size(linkage%redundancies)) then
-        body = body_of(linkage, linkage%redundancies(i))
+        body = linkage%redundancies(i)%body
       else
-        body = body_of(linkage, idle(i - size(linkage%redundancies)))
+        body = idle(i - size(linkage%redundancies))%body
       end if
       if (.not. any(bodies == body)) bodies = [bodies, body]
     end do
   end function redundant_bodies
-
-  !> The body that an equation is about; 0 if it is about a pin on a fixed line.
-  pure function body_of(linkage, equation) result(body)
-    type(linkage_t), intent(in) :: linkage
-    type(equation_t), intent(in) :: equation
-    integer :: body
-
-    body = equation%body
-    if (equation%kind == demand_turn) body = linkage%turns(equation%number)%body
-    if (equation%kind == demand_line) body = linkage%sliders(equation%number)%body
-    if (equation%kind == demand_drive) body = linkage%drives(equation%number)%body
-  end function body_of
 
   !> The equations matched with the unknowns of a component.
   pure subroutine find_matched_equations(equations, matching, component, np, group)

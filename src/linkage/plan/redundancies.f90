@@ -3,12 +3,12 @@ module redundancies
   use errors, only: error_of_reach, error_t, set_error
   use group_equations, only: misfit_of
   use kinds, only: wp
-  use linkages, only: demand_angle, demand_length, demand_turn, linkage_t
+  use linkages, only: demand_turn, linkage_t
   use pose_types, only: pose_t
   implicit none (type, external)
   private
 
-  public :: largest_misfit, misfit_of_redundancy, refuse_misfit, is_fit, body_of_redundancy
+  public :: largest_misfit, misfit_of_redundancy, refuse_misfit, is_fit
 
   !> A linkage fits where all equations are fulfilled to this share of its size.
   real(wp), parameter :: most_misfit = 1.0e-9_wp
@@ -46,8 +46,7 @@ contains
 
     associate (equation => linkage%redundancies(number))
       misfit = misfit_of(linkage, equation, pose, crank)
-      if (equation%kind == demand_turn) misfit = misfit*linkage%bodies(linkage%turns( &
-        equation%number)%body)%length
+      if (equation%kind == demand_turn) misfit = misfit*linkage%bodies(equation%body)%length
     end associate
   end function misfit_of_redundancy
 
@@ -65,7 +64,7 @@ contains
     call largest_misfit(linkage, pose, crank, misfit, number)
     if (is_fit(linkage, pose, misfit)) return
     call set_error(error, error_of_reach, "the redundant link does not fit", &
-      body=body_of_redundancy(linkage, number), missing=misfit)
+      body=linkage%redundancies(number)%body, missing=misfit)
   end subroutine refuse_misfit
 
   !> Whether a misfit is small enough. The smaller determinants are, the more do pins move for what
@@ -84,23 +83,5 @@ contains
     is_fit = abs(misfit)*share <= most_misfit*max(maxval(linkage%bodies%length), &
       maxval(abs(pose%pin)))
   end function is_fit
-
-  !> The body that a redundancy is about; 0 if it is about a pin on a fixed line.
-  pure function body_of_redundancy(linkage, number) result(body)
-    type(linkage_t), intent(in) :: linkage !! with redundancies
-    integer, intent(in) :: number          !! of one of them
-    integer :: body
-
-    associate (equation => linkage%redundancies(number))
-      select case (equation%kind)
-      case (demand_length, demand_angle)
-        body = equation%body
-      case (demand_turn)
-        body = linkage%turns(equation%number)%body
-      case default
-        body = linkage%sliders(equation%number)%body
-      end select
-    end associate
-  end function body_of_redundancy
 
 end module redundancies

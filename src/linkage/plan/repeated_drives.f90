@@ -2,8 +2,8 @@
 !! linkage, but hold nothing.
 module repeated_drives
   use kinds, only: wp
-  use linkages, only: drive_of_nothing, equation_t, linkage_t
-  use plan_equations, only: append_equation, drive_equation
+  use linkages, only: equation_t, linkage_t
+  use plan_equations, only: append_drive_equations
   use pose_types, only: pose_of_pins, pose_t
   use singular_drawings, only: linearize
   implicit none (type, external)
@@ -27,16 +27,12 @@ contains
     type(equation_t), allocatable :: equations(:)
     real(wp), allocatable :: matrix(:, :), misfits(:), basis(:, :), shares(:, :)
     real(wp) :: share, largest, unused
-    integer :: of_drive(size(linkage%drives)), i, k, n
+    integer :: i, k, n
 
     number = 0
     first = 0
     allocate (equations(0))
-    do k = 1, size(linkage%drives)
-      if (linkage%drives(k)%kind == drive_of_nothing) cycle
-      call append_equation(equations, drive_equation(linkage, k))
-      of_drive(size(equations)) = k
-    end do
+    call append_drive_equations(linkage, equations)
     n = size(equations)
     if (n < 2) return
     call linearize(linkage, equations, any_pose(linkage), 0.0_wp, matrix, misfits, unused)
@@ -53,8 +49,8 @@ contains
       end do
       largest = norm2(basis(i, :))
       if (largest <= rounding) then
-        number = of_drive(i)
-        first = of_drive(maxloc(abs(shares(i, :i - 1)), dim=1))
+        number = equations(i)%number
+        first = equations(maxloc(abs(shares(i, :i - 1)), dim=1))%number
         return
       end if
       basis(i, :) = basis(i, :)/largest

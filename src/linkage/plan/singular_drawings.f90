@@ -8,7 +8,7 @@ module singular_drawings
   use kinds, only: wp
   use linkages, only: drive_of_nothing, follows_angle, equation_t, linkage_t, reference_point, &
     turned
-  use plan_equations, only: append_equation, drive_equation, list_joint_equations
+  use plan_equations, only: append_drive_equations, list_joint_equations
   use pose_types, only: drawn_pose, pose_t
   implicit none (type, external)
   private
@@ -45,7 +45,8 @@ contains
     do i = 1, size(linkage%is_ground)
       if (linkage%is_ground(i)) start%pin(:, i) = linkage%ground_position(:, i) - start%origin
     end do
-    call list_equations(linkage, equations)
+    call list_joint_equations(linkage, equations)
+    call append_drive_equations(linkage, equations)
     span = max(maxval(abs(start%pin)), maxval(linkage%bodies%length))
     unit = span
     if (follows_angle(linkage)) unit = 1.0_wp/degree
@@ -65,20 +66,6 @@ contains
     end do
     everywhere = moved > 0
   end subroutine find_singularity
-
-  !> What all parts demand.
-  pure subroutine list_equations(linkage, equations)
-    type(linkage_t), intent(in) :: linkage
-    type(equation_t), allocatable, intent(out) :: equations(:)
-
-    integer :: k
-
-    call list_joint_equations(linkage, equations)
-    do k = 1, size(linkage%drives)
-      if (linkage%drives(k)%kind /= drive_of_nothing) call append_equation(equations, &
-        drive_equation(linkage, k))
-    end do
-  end subroutine list_equations
 
   !> Gauss and Newton's method, damped so that dependent equations do no harm; the misfit that is
   !! left, and the least singular value with its vector.

@@ -13,16 +13,15 @@ module joint_forces
   use group_factors, only: factorize_group, group_factors_t
   use inertia_loads, only: load_t
   use kinds, only: wp
-  use linkages, only: cross, demand_angle, demand_drive, demand_length, demand_line, &
-    demand_turn, drive_of_length, group_t, group_carried, group_dyad, is_dyad_linkage, &
-    linkage_t, normal_to
+  use linkages, only: cross, demand_drive, demand_line, demand_turn, equation_t, group_t, &
+    group_carried, group_dyad, is_dyad_linkage, linkage_t, normal_to
   use pose_types, only: arm_to_pin
   use poses, only: arm_to_middle, dead_point_sine, pose_t
   implicit none (type, external)
   private
 
-  public :: joint_forces_t, no_joint_forces, find_joint_forces, force_at_pin, add_force, &
-    add_scaled
+  public :: joint_forces_t, no_joint_forces, find_joint_forces, force_at_pin, take_reaction, &
+    add_force, add_scaled
 
   !> Forces on the bodies at their pins, and the torque of the drive.
   type :: joint_forces_t
@@ -268,8 +267,7 @@ contains
     lambda(2*size(group%pins) + 1:) = -load(group%bodies)%moment/factors%scale
     lambda = solve_transposed(factors%factor, lambda)
     do i = 1, size(group%equations)
-      associate (partial => factors%gradients%partial, last => factors%gradients%last, number => &
-        group%equations(i)%number)
+      associate (partial => factors%gradients%partial, last => factors%gradients%last)
         do k = last(i - 1) + 1, last(i)
           associate (body => partial(k)%body, pin => partial(k)%pin, force => &
             lambda(i)*partial(k)%by_pin)
@@ -282,23 +280,32 @@ contains
             end if
           end associate
         end do
-        select case (group%equations(i)%kind)
-        case (demand_length, demand_angle)
-          call add_force(linkage, group%equations(i)%body, group%equations(i)%pin, &
-            -lambda(i)*partial(last(i))%by_pin, forces)
-        case (demand_line)
-          forces%guide(number) = lambda(i)
-        case (demand_turn)
-          forces%couple(number) = lambda(i)
-        case (demand_drive)
-          forces%drive(number) = lambda(i)
-          if (linkage%drives(number)%kind == drive_of_length) call add_force(linkage, &
-            linkage%drives(number)%body, partial(last(i))%pin, -lambda(i)*partial(last(i))%by_pin, &
-            forces)
-        end select
+        call take_reaction(linkage, group%equations(i), lambda(i), partial(last(i))%by_pin, &
+          forces)
       end associate
     end do
   end subroutine solve_group
+
+  !> What an equation puts on joints and drives, and on the pin of whose body it gives length or
+  !! direction.
+  pure subroutine take_reaction(linkage, equation, lambda, by_pin, forces)
+    type(linkage_t), intent(in) :: linkage
+    type(equation_t), intent(in) :: equation
+    real(wp), intent(in) :: lambda            !! its reaction [N] or [N m]
+    real(wp), intent(in) :: by_pin(2)         !! of the last partial of its gradient
+    type(joint_forces_t), intent(inout) :: forces
+
+    if (equation%pin > 0) call add_force(linkage, equation%body, equation%pin, &
+      -lambda*by_pin, forces)
+    select case (equation%kind)
+    case (demand_line)
+      forces%guide(equation%number) = lambda
+    case (demand_turn)
+      forces%couple(equation%number) = lambda
+    case (demand_drive)
+      forces%drive(equation%number) = lambda
+    end select
+  end subroutine take_reaction
 
   !> What an equation puts on a body is a load on its first pin, which bears the opposite of it; if
   !! the body is placed before, it is a load of the body.

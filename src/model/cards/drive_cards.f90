@@ -8,7 +8,7 @@ module drive_cards
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
   use measure_cards, only: card_named, nature_of_measure
-  use natures, only: angle_nature, are_alike, length_nature, nature_t
+  use natures, only: angle_nature, are_alike, is_angular, length_nature, nature_t
   use numbers, only: number_length
   use spelling, only: suggestion
   use text, only: same_word, word_list
@@ -17,8 +17,7 @@ module drive_cards
   implicit none (type, external)
   private
 
-  public :: drive_card_t, branch_t, read_drive, read_branch, kind_of_drive, nature_of_drive, &
-    moves_along
+  public :: drive_card_t, branch_t, read_drive, read_branch, kind_of_drive, nature_of_drive
   public :: drive_angle, drive_relative, drive_slider, drive_ram, drive_measured_length, &
     drive_measured_angle
   public :: branch_left, branch_right, branch_forward, branch_backward
@@ -40,6 +39,7 @@ module drive_cards
   type :: drive_card_t
     type(token_t) :: keyword
     integer :: kind = 0            !! one of the drive_… constants; 0: it cannot be read
+    type(nature_t) :: nature = angle_nature !! of its position
     type(token_t) :: subject       !! link, pin of a slider, or MEASURE
     type(token_t) :: against       !! the other link, or the guide or link that the slider is on
     logical :: is_free = .false.   !! its position is given, but it is not held in vibration
@@ -89,7 +89,7 @@ contains
       measure = card_named(cards, "MEASURE", card%words(1)%text)
       if (measure == 0 .or. card_named(cards, "LINK", card%words(1)%text) > 0) return
       nature = nature_of_measure(cards(measure), cards)
-      kind = merge(drive_measured_angle, drive_measured_length, nature%noun == angle_nature%noun)
+      kind = merge(drive_measured_angle, drive_measured_length, is_angular(nature))
     case (2)
       kind = merge(drive_ram, drive_slider, same_word(card%words(2)%text, "length"))
       ! The angle of a link with a word too many is no place of a block.
@@ -107,16 +107,8 @@ contains
     type(nature_t) :: nature
 
     nature = angle_nature
-    if (moves_along(kind)) nature = length_nature
+    if (any(kind == [drive_slider, drive_ram, drive_measured_length])) nature = length_nature
   end function nature_of_drive
-
-  !> Whether a drive's position is a length; else it is an angle.
-  elemental function moves_along(kind) result(along)
-    integer, intent(in) :: kind !! one of the drive_… constants
-    logical :: along
-
-    along = kind == drive_slider .or. kind == drive_ram .or. kind == drive_measured_length
-  end function moves_along
 
   !> Number of words without `free` at the end.
   pure function word_count(card) result(words)
@@ -157,6 +149,7 @@ contains
     call check_form(card, diagnostics, fine, known_keys)
     if (.not. fine) return
     drive%kind = kind
+    drive%nature = nature_of_drive(kind)
     call read_subject(card, diagnostics, drive)
     if (drive%kind == 0) return
     drive%has_at = has_key(card, "at")
@@ -173,7 +166,7 @@ contains
       return
     end if
     if (has_value(card, "law")) drive%law = value_of(card, "law")
-    call read_position(card, first_kind, system, diagnostics, drive)
+    call read_position(card, nature_of_drive(first_kind), system, diagnostics, drive)
     if (.not. known_keys .or. drive%is_free .or. drive%has_at .or. drive%has_ratio .or. &
       has_key(card, "law")) return
     ! That the same thing is driven twice is found by `drive_checks`.
@@ -240,30 +233,29 @@ contains
   end subroutine read_subject
 
   !> Reads `at=` and `speed=`, or `ratio=` and `phase=`.
-  pure subroutine read_position(card, first_kind, system, diagnostics, drive)
+  pure subroutine read_position(card, first, system, diagnostics, drive)
     type(card_t), intent(in) :: card
-    integer, intent(in) :: first_kind !! of the first drive
+    type(nature_t), intent(in) :: first !! of the first drive
     type(unit_system_t), intent(in) :: system
     type(diagnostics_t), intent(inout) :: diagnostics
     type(drive_card_t), intent(inout) :: drive
 
     character(len=*), parameter :: of_position(*) = [character(len=5) :: "at", "speed", "ratio", &
       "phase"]
-    type(nature_t) :: nature
     integer :: i, k
     logical :: fine
 
-    nature = nature_of_drive(drive%kind)
-    call read_entry_quantity(card, "at", nature%value, system, .false., diagnostics, drive%at, fine)
+    call read_entry_quantity(card, "at", drive%nature%value, system, .false., diagnostics, &
+      drive%at, fine)
     if (fine) drive%at_word = value_of(card, "at")
-    call read_entry_quantity(card, "phase", nature%value, system, .false., diagnostics, &
+    call read_entry_quantity(card, "phase", drive%nature%value, system, .false., diagnostics, &
       drive%phase, fine)
-    call read_entry_quantity(card, "speed", nature%rate, system, .false., diagnostics, &
+    call read_entry_quantity(card, "speed", drive%nature%rate, system, .false., diagnostics, &
       drive%speed, fine)
     if (fine .and. drive%is_free .and. .not. drive%has_ratio) drive%speed_word = value_of(card, &
       "speed")
     if (has_value(card, "ratio")) call read_ratio(value_of(card, "ratio"), &
-      nature_of_drive([drive%kind, first_kind]), system, diagnostics, drive)
+      [drive%nature, first], system, diagnostics, drive)
     do i = 1, size(card%entries)
       associate (key => card%entries(i)%key)
         if (drive%law%line > 0 .and. any([(same_word(key%text, trim(of_position(k))), k=1, &

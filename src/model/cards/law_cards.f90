@@ -10,7 +10,7 @@ module law_cards
   use expressions, only: evaluate, operand_t
   use kinds, only: wp
   use motion_laws, only: law_words
-  use natures, only: angle_nature, nature_t
+  use natures, only: is_angular, nature_t
   use quantities, only: kind_text, quantity_t
   use time_formulas, only: add_step, step_scaled, time_formula_t
   use tokens, only: token_t
@@ -148,7 +148,7 @@ contains
     end if
     bare = coherent_factor(system, nature%value)
     factor = bare%numerator/bare%denominator
-    if (nature%noun == angle_nature%noun) factor = merge(1.0_wp/degree, 1.0_wp, found%in_radians)
+    if (is_angular(nature)) factor = merge(1.0_wp/degree, 1.0_wp, found%in_radians)
     if (abs(factor - 1.0_wp) > 0.0_wp) call add_step(law%formula, step_scaled, found%step, 0, &
       factor, [0, 0])
     law%name = card%words(1)

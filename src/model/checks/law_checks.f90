@@ -6,7 +6,6 @@ module law_checks
   use constants, only: degree
   use cubic_splines, only: ends_at_rest, ends_not_a_knot, ends_periodic, new_cubic_spline
   use diagnostics, only: add_error, add_warning, diagnostics_t, has_errors
-  use drive_cards, only: nature_of_drive
   use expressions, only: place_in
   use kinds, only: wp
   use law_cards, only: law_card_t, table_free, table_periodic, table_rest
@@ -146,8 +145,8 @@ contains
     call refuse_tables_beside(own_cards, diagnostics, fine)
     if (.not. fine) return
     if (own_cards(1)%table_word%line > 0) then
-      call take_table(cards, own_cards(1), nature_of_drive(model%drives(number)%kind), &
-        diagnostics, model, program, fine)
+      call take_table(cards, own_cards(1), model%drives(number)%nature, diagnostics, model, &
+        program, fine)
     else if (allocated(own_cards(1)%formula_words)) then
       call take_formula(own_cards(1), model, diagnostics, program, fine)
     else
@@ -167,8 +166,8 @@ contains
       if (model%drives(i)%law%line == 0) cycle
       do k = 1, i - 1
         if (.not. same_word(model%drives(k)%law%text, model%drives(i)%law%text)) cycle
-        if (are_alike(nature_of_drive(model%drives([i, k])%kind))) cycle
-        nature = nature_of_drive(model%drives(k)%kind)
+        if (are_alike(model%drives([i, k])%nature)) cycle
+        nature = model%drives(k)%nature
         call add_error(diagnostics, model%drives(i)%law, "the law '"//model%drives(i)%law%text// &
           "' is one of "//trim(nature%noun)//"s already; expected another law", &
           model%drives(k)%law, "it is that of '"//model%drives(k)%subject%text//"' here")

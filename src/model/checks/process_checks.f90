@@ -9,7 +9,7 @@ module process_checks
   use name_checks, only: link_ends, look_up, pin_names
   use name_index, only: find_name, name_index_t, new_name_index
   use named_coordinates, only: coordinate_number, find_named_coordinates, named_coordinate_t
-  use natures, only: angle_nature, length_nature, nature_t
+  use natures, only: angle_nature, is_angular, length_nature, nature_t
   use process_cards, only: over_angle, over_drive, over_measure, over_slider, over_time, &
     over_travel, process_card_t, process_force, process_resistance
   use table_cards, only: number_table_t, read_table
@@ -76,7 +76,7 @@ contains
 
     call find_variable(model, links, pins, process, diagnostics, fine, nature)
     if (.not. fine) return
-    is_angle = nature%noun == angle_nature%noun
+    is_angle = is_angular(nature)
     dimensions(:, 1) = nature%value
     if (process%over == over_time) dimensions(:, 1) = dimension_time
     dimensions(:, 2) = merge(dimension_force, dimension_moment, process%kind == process_force)

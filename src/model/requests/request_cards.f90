@@ -7,7 +7,7 @@ module request_cards
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_input, error_t, set_error
   use kinds, only: wp
-  use natures, only: angle_nature, nature_t
+  use natures, only: is_angular, nature_t
   use numbers, only: read_integer
   use text, only: to_string
   use tokens, only: token_t
@@ -68,7 +68,7 @@ contains
 
     call check_form(card, diagnostics, fine)
     call read_values(card%words, nature%value, system, trim(merge("crank angle", "position   ", &
-      nature%noun == angle_nature%noun)), diagnostics, crank, to_all_digits=.true.)
+      is_angular(nature))), diagnostics, crank, to_all_digits=.true.)
   end subroutine read_crank
 
   !> Reads `SPEED` values [rad/s], listed like crank angles, and `alpha=` [rad/s²], and

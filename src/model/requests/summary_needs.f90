@@ -1,8 +1,8 @@
 !> What REPORT summary needs: all that the reports need which have its quantities.
 module summary_needs
   use diagnostics, only: add_error, diagnostics_t
-  use drive_cards, only: moves_along
   use models, only: is_damped, model_t
+  use natures, only: is_angular
   use report_kinds, only: kind_of_linkage, report_kind_t
   use report_cards, only: report_t
   use summary_quantities, only: quantity_kinds, quantity_name, quantity_t
@@ -58,7 +58,7 @@ contains
     type(model_t), intent(in) :: model           !! with its drives
     type(report_kind_t), intent(inout) :: kind   !! of the report
 
-    if (.not. any(moves_along(model%drives%kind)) .and. size(model%actuators) == 0) return
+    if (all(is_angular(model%drives%nature)) .and. size(model%actuators) == 0) return
     kind%masses = .true.
     if (index(kind%studies, "joints") == 0) kind%studies = trim(kind%studies)//" joints"
   end subroutine add_forces_of_drives

@@ -2,7 +2,6 @@
 !! its own, `four_bar_motion_format`.
 module motion_report
   use coordinate_columns, only: columns_in, unit_names
-  use drive_cards, only: nature_of_drive
   use drive_positions, only: shown_crank, unit_of_drive
   use four_bar_motion_format, only: crank_note, forces_note, four_bar_cells, four_bar_columns, &
     four_bar_event, motion_columns, motion_words, motor_columns, motor_values
@@ -131,12 +130,12 @@ contains
     integer :: k
 
     free = free_drives(model%drives%is_free)
-    mixed = .not. are_alike(nature_of_drive(model%drives(free)%kind))
+    mixed = .not. are_alike(model%drives(free)%nature)
     line = "coordinates:"
     do k = 1, size(free)
       if (k > 1) line = line//","
       line = line//" "//to_string(k)//" drive "//model%drives(free(k))%subject%text
-      nature = nature_of_drive(model%drives(free(k))%kind)
+      nature = model%drives(free(k))%nature
       if (mixed) line = line//" in "//unit_names(nature%words([of_value, of_rate]), model%outputs, &
         " and ")
     end do
@@ -221,7 +220,7 @@ contains
       columns = four_bar_columns(model%reports(report_number(model, "motion")))
       return
     end if
-    natures = nature_of_drive(model%drives(free_drives(model%drives%is_free))%kind)
+    natures = model%drives(free_drives(model%drives%is_free))%nature
     columns = "time:time "//columns_in(natures, "position* rate* torque", [of_value, of_rate, &
       of_effort])//" kinetic,potential,work,energy_error:energy"
     associate (asked => model%reports(report_number(model, "motion")))
@@ -303,7 +302,7 @@ contains
     type(nature_t) :: of_motor
     integer :: k
 
-    natures = nature_of_drive(model%drives(free_drives(model%drives%is_free))%kind)
+    natures = model%drives(free_drives(model%drives%is_free))%nature
     associate (sample => motion%samples(instant))
       position = sample%position
       rate = sample%rate

@@ -2,7 +2,6 @@
 !! strokes, time ratios, transmission and pressure angles, extremes of coordinates, a row each.
 module limits_report
   use coordinate_columns, only: shown_unit
-  use drive_cards, only: nature_of_drive
   use kinds, only: wp
   use limits_study, only: angle_of_body, crank_range_t, drive_range_t, place_of_slider, &
     quantity_t, time_ratio, transmission_of_dyad, transmission_of_lines, value_of_coordinate
@@ -120,7 +119,7 @@ contains
     type(nature_t) :: nature
     type(part_t) :: part
 
-    nature = nature_of_drive(variant%model%drives(further%drive)%kind)
+    nature = variant%model%drives(further%drive)%nature
     associate (linkage => variant%mechanism%linkage, measure => variant%model%drives( &
         further%drive)%measure)
       part%link = linkage%drives(further%drive)%body

@@ -1,11 +1,11 @@
 !> Words and remarks of `linkage.dat` of linkages that are no four-bars.
 module limits_words
   use coordinate_columns, only: shown_unit
-  use drive_cards, only: moves_along
   use drive_positions, only: shown_crank, unit_of_drive
   use kinds, only: wp
   use limits_study, only: crank_range_t
   use linkage_notes, only: notes_on_linkage
+  use models, only: drives_length
   use natures, only: all_natures
   use named_coordinates, only: limited_coordinates
   use plan_words, only: group_words
@@ -92,7 +92,7 @@ contains
 
     from = to_string(shown_crank(variant, range%from), 9)
     to = to_string(shown_crank(variant, range%to), 9)//" "//unit_of_drive(variant)
-    along = moves_along(variant%model%drives(1)%kind)
+    along = drives_length(variant%model)
     if (all(range%is_open)) then
       what = ", and no cycle"
       if (along) what = ""

@@ -4,15 +4,14 @@ module division_checks
   use bending_checks, only: check_forces_on_links
   use coupled_drives, only: find_coupled_drives
   use diagnostics, only: add_error, diagnostics_t
-  use drive_cards, only: moves_along
   use errors, only: error_t
   use kinds, only: wp
   use link_cards, only: has_own_mass
   use mechanisms, only: mechanism_t
   use models, only: model_t, needs_frequencies, report_number
+  use natures, only: is_angular
   use pose_types, only: pose_t
   use poses, only: place_links
-  use redundancies, only: body_of_redundancy
   use structures, only: has_beams
   implicit none (type, external)
   private
@@ -35,7 +34,7 @@ contains
     integer :: drive, motion, report
     logical :: in_motion
 
-    in_links = "in '"//mechanism%names(max(1, body_of_redundancy(mechanism%linkage, 1)))%text// &
+    in_links = "in '"//mechanism%names(max(1, mechanism%linkage%redundancies(1)%body))%text// &
       "' and the links that hold the same pins"
     if (size(model%actuators) > 0) call add_error(diagnostics, model%actuators(1)%name, &
       "forces "//in_links//" are not told with ACTUATE; take a redundant link or joint away, "// &
@@ -99,7 +98,7 @@ contains
     end do
     if (redundancy == 0) return
     name = "a slider"
-    i = body_of_redundancy(mechanism%linkage, redundancy)
+    i = mechanism%linkage%redundancies(redundancy)%body
     if (i > 0) name = "'"//mechanism%names(i)%text//"'"
     call add_error(diagnostics, model%reports(report)%keyword, "the forces of the drives "// &
       "cannot be told apart: "//name//" joins what they move, and they may hold it with any "// &
@@ -136,7 +135,7 @@ contains
     integer :: i
 
     do i = 2, size(model%drives)
-      if (model%drives(i)%is_free .or. moves_along(model%drives(i)%kind)) cycle
+      if (model%drives(i)%is_free .or. .not. is_angular(model%drives(i)%nature)) cycle
       call add_error(diagnostics, model%drives(i)%keyword, "the forces "//in_links// &
         " are divided by how links bend, and in a motion not with a second drive that holds "// &
         "its link; expected 'free'", model%reports(report_number(model, "motion"))%forces_word, &
