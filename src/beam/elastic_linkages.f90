@@ -75,8 +75,8 @@ contains
     logical :: moves
 
     moves = is_dyad_linkage(linkage) .and. .not. any(linkage%drives%is_free)
-    if (moves .and. allocated(linkage%loads)) moves = .not. any(linkage%loads%stiffness > 0.0_wp &
-      .or. is_tension(linkage%loads) .or. is_damper(linkage%loads))
+    if (moves .and. allocated(linkage%loads)) moves = .not. any(linkage%loads%law%stiffness > &
+      0.0_wp .or. is_tension(linkage%loads) .or. is_damper(linkage%loads))
   end function moves_in_closed_form
 
   !> Whether a load is a spring whose force does not change.
@@ -84,7 +84,7 @@ contains
     type(applied_load_t), intent(in) :: load
     logical :: is
 
-    is = abs(load%tension) > 0.0_wp .and. .not. load%stiffness > 0.0_wp
+    is = abs(load%law%tension) > 0.0_wp .and. .not. load%law%stiffness > 0.0_wp
   end function is_tension
 
   !> Whether a load is a damper along a line or between two bodies.
@@ -92,7 +92,7 @@ contains
     type(applied_load_t), intent(in) :: load
     logical :: is
 
-    is = load%damping > 0.0_wp .and. load%kind == applies_along
+    is = load%law%damping > 0.0_wp .and. load%kind == applies_along
   end function is_damper
 
   !> Divides a linkage into parts.
@@ -337,7 +337,7 @@ contains
       end associate
     end do
     if (allocated(linkage%loads)) then
-      call add_springs(linkage, linkage%loads%stiffness > 0.0_wp, ends, elastic%springs)
+      call add_springs(linkage, linkage%loads%law%stiffness > 0.0_wp, ends, elastic%springs)
       call add_springs(linkage, is_tension(linkage%loads), ends, elastic%tensions)
       call add_springs(linkage, is_damper(linkage%loads), ends, elastic%dampers)
     else
@@ -423,8 +423,8 @@ contains
     do i = 1, size(loads)
       associate (spring => springs(i), load => linkage%loads(loads(i)))
         spring%load = loads(i)
-        spring%stiffness = load%stiffness
-        spring%damping = load%damping
+        spring%stiffness = load%law%stiffness
+        spring%damping = load%law%damping
         spring%turns = is_torsional(load)
         if (.not. spring%turns) cycle
         do k = 1, 2

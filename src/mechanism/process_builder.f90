@@ -50,7 +50,7 @@ contains
           linkage%bodies(load%at%body)%card_axis)
         load%couple = process%torque
         if (process%kind == process_resistance) load%couple = -process%torque
-        load%damping = process%damping
+        load%law%damping = process%damping
         load%resisting = process%resisting
         load%smooth = process%smooth
         load%during = merge(acts_with_motion, acts_against_motion, process%during > 0)

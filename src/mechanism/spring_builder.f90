@@ -1,6 +1,6 @@
 !> Model → springs and dampers of the linkage.
 module spring_builder
-  use applied_load_types, only: applied_load_t, applies_along
+  use applied_load_types, only: applied_load_t, applies_along, counts_turns
   use constants, only: degree
   use coordinate_types, only: coordinate_t, is_angle, terminal_t
   use drive_values, only: drive_value
@@ -9,7 +9,6 @@ module spring_builder
   use linkages, only: body_t, drive_of_angle, linkage_t, turned
   use models, only: model_t, report_number
   use name_index, only: find_name, name_index_t
-  use pulls, only: counts_turns
   use spring_cards, only: spring_card_t
   use stop_builder, only: contact_width
   use text, only: same_word
@@ -39,14 +38,12 @@ contains
         load%kind = applies_along
         load%along = coordinate_of_spring(model, links, pins, linkage, i)
         if (spring%turns) load%hinge = find_name(pins, spring%ends(1)%text)
-        load%stiffness = spring%stiffness
-        load%damping = spring%damping
+        load%law = spring%law
         if (.not. spring%damps) call set_rest(model, pins, linkage, spring, load)
-        if (spring%side == 0) cycle
+        if (load%law%side == 0) cycle
         load%name = spring%name%text
-        load%side = spring%side
-        load%rest = load%rest + spring%side*spring%gap
-        load%contact = contact_width(linkage, spring%contact, spring%stiffness, spring%nature)
+        load%law%rest = load%law%rest + load%law%side*spring%gap
+        load%law%contact = contact_width(linkage, spring%law, spring%nature)
       end associate
     end do
   end function springs_of
@@ -115,23 +112,24 @@ contains
     logical :: is_drawn
     integer :: k
 
-    if (.not. spring%stiffness > 0.0_wp) then
-      load%tension = spring%load
+    if (.not. load%law%stiffness > 0.0_wp) then
+      load%law%tension = spring%load
     else if (spring%has_rest) then
-      load%rest = spring%rest
+      return
     else if (spring%turns) then
       associate (bodies => load%along%at%body)
-        load%rest = drawn_angle(model, pins, linkage%bodies(bodies(2)))
-        if (bodies(1) > 0) load%rest = load%rest - drawn_angle(model, pins, &
+        load%law%rest = drawn_angle(model, pins, linkage%bodies(bodies(2)))
+        if (bodies(1) > 0) load%law%rest = load%law%rest - drawn_angle(model, pins, &
           linkage%bodies(bodies(1)))
       end associate
-      if (counts_turns(load)) load%rest = turn_of_deck(model, linkage, load%along%drive, load%rest)
-      load%rest = load%rest - spring%load/spring%stiffness
+      if (counts_turns(load)) load%law%rest = turn_of_deck(model, linkage, load%along%drive, &
+        load%law%rest)
+      load%law%rest = load%law%rest - spring%load/load%law%stiffness
     else
       do k = 1, 2
         call find_drawn_place(model, spring%ends(k)%text, place(:, k), is_drawn)
       end do
-      load%rest = norm2(place(:, 2) - place(:, 1)) - spring%load/spring%stiffness
+      load%law%rest = norm2(place(:, 2) - place(:, 1)) - spring%load/load%law%stiffness
     end if
   end subroutine set_rest
 

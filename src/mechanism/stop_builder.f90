@@ -5,6 +5,7 @@ module stop_builder
   use linkages, only: linkage_t
   use models, only: model_t
   use natures, only: nature_t
+  use pull_laws, only: pull_law_t
   use rigid_bodies, only: rigid_bodies_of, total_mass
   implicit none (type, external)
   private
@@ -28,31 +29,27 @@ contains
         load%coordinate = card%number
         load%along = linkage%coordinates(card%number)
         load%name = card%name%text
-        load%side = merge(-1, 1, card%is_below)
-        load%rest = card%limit
-        load%stiffness = card%stiffness
-        load%damping = card%damping
-        load%contact = contact_width(linkage, card%contact, card%stiffness, card%nature)
+        load%law = card%law
+        load%law%contact = contact_width(linkage, card%law, card%nature)
       end associate
     end do
   end function stops_of
 
   !> The width in which a contact begins: that of its card, or a hundredth of the depth to which the
   !! weight of all bodies would press it, of an angle at the length of the longest [m] or [rad].
-  pure function contact_width(linkage, given, stiffness, nature) result(width)
+  pure function contact_width(linkage, law, nature) result(width)
     type(linkage_t), intent(in) :: linkage !! with its masses and gravity
-    real(wp), intent(in) :: given          !! 0: not on the card
-    real(wp), intent(in) :: stiffness      !! [N/m] or [N m/rad]
+    type(pull_law_t), intent(in) :: law    !! with the contact of the card; 0: not on it
     type(nature_t), intent(in) :: nature   !! of the coordinate
     real(wp) :: width
 
     integer :: elements(size(linkage%bodies))
 
-    width = given
-    if (given > 0.0_wp) return
+    width = law%contact
+    if (width > 0.0_wp) return
     elements = 0
     width = 0.01_wp*total_mass(linkage, rigid_bodies_of(linkage, elements))* &
-      norm2(linkage%gravity)/stiffness
+      norm2(linkage%gravity)/law%stiffness
     width = width*maxval(linkage%bodies%length)**(1 - nature%value(1))
   end function contact_width
 

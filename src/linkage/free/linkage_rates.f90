@@ -9,6 +9,7 @@
 !! along h_k, and b the accelerations with the present rates and no ü.
 module linkage_rates
   use adaptive_integration, only: rate_system_t
+  use applied_load_types, only: deflection
   use applied_loads, only: evaluate_loads
   use block_ends, only: refuse_leaving_block
   use constants, only: degree, two_pi
@@ -33,7 +34,7 @@ module linkage_rates
   use motion_switches, only: has_switches, switches_at
   use pose_types, only: count_from, pose_t
   use poses, only: dead_point_sine, place_groups, place_links
-  use pulls, only: contact_depth
+  use pull_laws, only: contact_depth
   use rigid_bodies, only: rigid_body_t
   use terminals, only: twists_of
   use whole_systems, only: drive_acceleration, drive_position, drive_row, rate_along, whole_system_t
@@ -390,13 +391,13 @@ contains
     integer :: i
 
     step = huge(step)
-    if (all(self%whole%linkage%loads%side == 0)) return
+    if (all(self%whole%linkage%loads%law%side == 0)) return
     call look_at(self, state, found)
     if (.not. found) return
     associate (linkage => self%whole%linkage, pose => self%instant%pose, now => self%instant%motion)
       turn = maxval(abs(now%turn))
       do i = 1, size(linkage%loads)
-        if (linkage%loads(i)%side /= 0) turn = max(turn, line_turn(linkage, pose, now, &
+        if (linkage%loads(i)%law%side /= 0) turn = max(turn, line_turn(linkage, pose, now, &
           linkage%loads(i)%along))
       end do
     end associate
@@ -439,7 +440,7 @@ contains
     logical :: found
     integer :: i, n
 
-    n = count(self%whole%linkage%loads%side /= 0)
+    n = count(self%whole%linkage%loads%law%side /= 0)
     if (n > 0) then
       call look_at(self, state, found)
       if (.not. found) n = 0
@@ -450,10 +451,10 @@ contains
     associate (linkage => self%whole%linkage, at => self%instant)
       do i = 1, size(linkage%loads)
         associate (load => linkage%loads(i), along => at%along(i))
-          if (load%side == 0) cycle
+          if (load%law%side == 0) cycle
           n = n + 1
-          contacts(:, n) = [contact_depth(load, along%value, evaluated_rate(linkage, at%pose, &
-            at%motion, load%along, along)), load%contact]
+          contacts(:, n) = [contact_depth(load%law, deflection(load, along%value), &
+            evaluated_rate(linkage, at%pose, at%motion, load%along, along)), load%law%contact]
         end associate
       end do
     end associate

@@ -12,11 +12,12 @@ module applied_load_types
   use coordinate_types, only: coordinate_t, is_angle, terminal_t
   use cubic_splines, only: cubic_spline_t
   use kinds, only: wp
+  use pull_laws, only: pull_law_t
   use units, only: unit_t
   implicit none (type, external)
   private
 
-  public :: applied_load_t, is_torsional
+  public :: applied_load_t, is_torsional, counts_turns, deflection
   public :: applies_force, applies_couple, applies_along
   public :: acts_always, acts_with_motion, acts_against_motion
   public :: over_nothing, over_coordinate, over_time
@@ -31,10 +32,9 @@ module applied_load_types
   !> What a table is over.
   integer, parameter :: over_nothing = 0, over_coordinate = 1, over_time = 2
 
-  !> A load. With the deflection x − rest of its coordinate x and the rate v: the pull along it is
-  !! `tension + stiffness (x − rest) + damping v`, or of one side only, see `pulls`; a force or
-  !! couple is `value`, times that of a table, less `damping v + resisting tanh(v/smooth)` of its
-  !! place or body.
+  !> A load. A pull along a coordinate is that of its law; a force or couple is `value`, times that
+  !! of a table, less `damping v + resisting tanh(v/smooth)` with the velocity v of its place or
+  !! body.
   type :: applied_load_t
     integer :: kind = applies_force       !! one of the applies_… constants
     type(terminal_t) :: at                !! where a force acts; of a couple its body
@@ -54,13 +54,7 @@ module applied_load_types
     type(unit_t) :: variable_unit         !! of what a table is over, likewise
     character(len=:), allocatable :: angle_name !! of the link whose angle it is over, for messages
     character(len=:), allocatable :: variable_name !! of the coordinate with a name, likewise
-    real(wp) :: tension = 0.0_wp          !! [N] or [N m]
-    real(wp) :: stiffness = 0.0_wp        !! [N/m] or [N m/rad]
-    real(wp) :: rest = 0.0_wp             !! [m] or [rad]
-    real(wp) :: damping = 0.0_wp          !! [N s/m] or [N m s/rad]
-    integer :: side = 0                   !! of its rest where the pull acts only: 1 above, −1
-                                          !! below; 0: it acts on both
-    real(wp) :: contact = 0.0_wp          !! of one side: width in which the pull begins [m], [rad]
+    type(pull_law_t) :: law               !! of a pull; of a force or couple the damping alone
     character(len=:), allocatable :: name !! of a stop, or spring of one side, for messages
     real(wp) :: resisting = 0.0_wp        !! [N] or [N m]
     real(wp) :: smooth = 1.0_wp           !! speed within which what changes its sign with the
@@ -76,5 +70,24 @@ contains
 
     is = load%kind == applies_along .and. load%along%kind == is_angle
   end function is_torsional
+
+  !> Whether a torsional load counts whole turns: a drive gives its angle.
+  elemental function counts_turns(load) result(counts)
+    type(applied_load_t), intent(in) :: load !! along a coordinate
+    logical :: counts
+
+    counts = is_torsional(load) .and. load%along%drive > 0
+  end function counts_turns
+
+  !> By how much a coordinate differs from the rest of a load: an angle from −π to π, but one that a
+  !! drive gives with all whole turns [m] or [rad].
+  pure function deflection(load, value) result(x)
+    type(applied_load_t), intent(in) :: load !! along a coordinate
+    real(wp), intent(in) :: value            !! of the coordinate [m] or [rad]
+    real(wp) :: x
+
+    x = value - load%law%rest
+    if (is_torsional(load) .and. .not. counts_turns(load)) x = atan2(sin(x), cos(x))
+  end function deflection
 
 end module applied_load_types

@@ -2,7 +2,7 @@
 !! energy; without one, but determined by the pose; and what depends on how fast the linkage moves.
 module applied_loads
   use applied_load_types, only: acts_always, applied_load_t, applies_along, applies_couple, &
-    applies_force, over_nothing
+    applies_force, deflection, over_nothing
   use coordinate_types, only: coordinate_t, is_angle, is_sum, terminal_t
   use coordinates, only: evaluate, evaluated_rate, evaluated_t
   use inertia_loads, only: load_t
@@ -12,7 +12,7 @@ module applied_loads
   use load_tables, only: table_factor
   use pose_types, only: pose_t
   use poses, only: arm_to_place
-  use pulls, only: moving_pull, pull_energy, pull_scale, standing_pull
+  use pull_laws, only: moving_pull, pull_energy, pull_scale, standing_pull
   use terminals, only: terminal_place, terminal_velocity
   implicit none (type, external)
   private
@@ -74,7 +74,7 @@ contains
 
     select case (load%kind)
     case (applies_along)
-      is = abs(load%stiffness) > 0.0_wp .or. abs(load%tension) > 0.0_wp
+      is = abs(load%law%stiffness) > 0.0_wp .or. abs(load%law%tension) > 0.0_wp
     case (applies_force)
       is = .not. load%is_carried .and. load%over == over_nothing .and. &
         load%during == acts_always .and. any(abs(load%force) > 0.0_wp)
@@ -103,7 +103,7 @@ contains
     type(applied_load_t), intent(in) :: load
     logical :: is
 
-    is = load%during /= acts_always .or. load%damping > 0.0_wp .or. load%resisting > 0.0_wp
+    is = load%during /= acts_always .or. load%law%damping > 0.0_wp .or. load%resisting > 0.0_wp
   end function is_moving
 
   !> Adds springs and constant forces.
@@ -122,8 +122,8 @@ contains
         if (load%kind == applies_force) then
           call add_force(pose, load%at, load%force, body_load, pin_load)
         else
-          call add_effort(linkage, pose, load%along, along(i), -standing_pull(load, &
-            along(i)%value), body_load, pin_load)
+          call add_effort(linkage, pose, load%along, along(i), -standing_pull(load%law, &
+            deflection(load, along(i)%value)), body_load, pin_load)
         end if
       end associate
     end do
@@ -234,9 +234,9 @@ contains
           body_load(load%at%body)%moment = body_load(load%at%body)%moment + &
             moving_couple(linkage, pose, now, load)
         case default
-          call add_effort(linkage, pose, load%along, along(i), -moving_pull(load, &
-            along(i)%value, evaluated_rate(linkage, pose, now, load%along, along(i))), body_load, &
-            pin_load)
+          call add_effort(linkage, pose, load%along, along(i), -moving_pull(load%law, &
+            deflection(load, along(i)%value), evaluated_rate(linkage, pose, now, load%along, &
+            along(i))), body_load, pin_load)
         end select
       end associate
     end do
@@ -255,7 +255,7 @@ contains
 
     velocity = terminal_velocity(linkage, pose, now, load%at)
     speed = norm2(velocity)
-    force = -load%damping*velocity
+    force = -load%law%damping*velocity
     if (speed > 0.0_wp) force = force - resistance(load, speed)/speed*velocity
     if (load%during /= acts_always) force = force + share_of(load, velocity, force_of(pose, &
       load))*table_factor(linkage, pose, load)*force_of(pose, load)
@@ -272,7 +272,7 @@ contains
     real(wp) :: speed
 
     speed = now%turn(load%at%body)
-    couple = -load%damping*speed - resistance(load, speed)
+    couple = -load%law%damping*speed - resistance(load, speed)
     if (load%during /= acts_always) couple = couple + share_of(load, [speed, 0.0_wp], &
       [load%couple, 0.0_wp])*table_factor(linkage, pose, load)*load%couple
   end function moving_couple
@@ -290,7 +290,7 @@ contains
     do i = 1, size(pull)
       associate (load => linkage%loads(i))
         if (is_conservative(load) .and. load%kind == applies_along) pull(i) = &
-          standing_pull(load, along(i)%value)
+          standing_pull(load%law, deflection(load, along(i)%value))
       end associate
     end do
   end function standing_pulls
@@ -309,8 +309,9 @@ contains
     allocate (pull(load_count(linkage)), source=0.0_wp)
     do i = 1, size(pull)
       associate (load => linkage%loads(i))
-        if (is_moving(load) .and. load%kind == applies_along) pull(i) = moving_pull(load, &
-          along(i)%value, evaluated_rate(linkage, pose, now, load%along, along(i)))
+        if (is_moving(load) .and. load%kind == applies_along) pull(i) = moving_pull(load%law, &
+          deflection(load, along(i)%value), evaluated_rate(linkage, pose, now, load%along, &
+          along(i)))
       end associate
     end do
   end function moving_pulls
@@ -341,7 +342,7 @@ contains
           energy = energy - dot_product(load%force, terminal_place(linkage, pose, load%at) + &
             pose%origin)
         else
-          energy = energy + pull_energy(load, along(i)%value)
+          energy = energy + pull_energy(load%law, deflection(load, along(i)%value))
         end if
       end associate
     end do
@@ -363,8 +364,8 @@ contains
     do i = 1, size(along)
       associate (load => linkage%loads(i))
         if (.not. is_conservative(load) .or. load%kind /= applies_along) cycle
-        scale = scale + pull_scale(load, along(i)%value)*work_scale(linkage, pose, per, &
-          load%along, along(i))
+        scale = scale + pull_scale(load%law, deflection(load, along(i)%value))* &
+          work_scale(linkage, pose, per, load%along, along(i))
       end associate
     end do
   end function spring_scale

@@ -1,8 +1,8 @@
 !> Tables of loads: over what coordinate of the linkage they are, where they end, after how much of
 !! the first drive they repeat.
 module load_tables
-  use applied_load_types, only: applied_load_t, applies_along, is_torsional, over_coordinate, &
-    over_nothing, over_time
+  use applied_load_types, only: applied_load_t, applies_along, counts_turns, deflection, &
+    is_torsional, over_coordinate, over_nothing, over_time
   use constants, only: degree
   use coordinate_types, only: is_angle, is_sum
   use coordinates, only: coordinate_value, evaluated_t
@@ -12,7 +12,6 @@ module load_tables
   use drive_values, only: drive_rate
   use linkages, only: linkage_t
   use pose_types, only: pose_t
-  use pulls, only: counts_turns, deflection
   use text, only: to_string
   use units, only: from_si
   implicit none (type, external)
@@ -46,7 +45,7 @@ contains
         if (load%kind == applies_along) then
           if (jumps(linkage, pose, load, along(i)%value)) then
             words = "a torsional spring"
-            if (load%side /= 0) words = "the angle of '"//load%name//"'"
+            if (load%law%side /= 0) words = "the angle of '"//load%name//"'"
             call set_error(error, error_of_numerics, words//" is turned by nearly "// &
               "half a turn or more, and its torque would jump")
             return
@@ -87,7 +86,7 @@ contains
     integer :: i
 
     does = .false.
-    if (.not. load%stiffness > 0.0_wp) return
+    if (.not. load%law%stiffness > 0.0_wp) return
     if (is_torsional(load) .and. .not. counts_turns(load)) does = abs(deflection(load, &
       value)) > most_deflection
     if (load%along%kind /= is_sum) return
@@ -114,7 +113,8 @@ contains
     if (.not. allocated(linkage%loads) .or. period <= 0.0_wp) return
     do i = 1, size(linkage%loads)
       associate (load => linkage%loads(i))
-        if (load%kind == applies_along .and. load%stiffness > 0.0_wp .and. counts_turns(load)) then
+        if (load%kind == applies_along .and. load%law%stiffness > 0.0_wp .and. counts_turns(load)) &
+          then
           if (abs(drive_rate(linkage, load%along%drive)) > 0.0_wp) whole = 0.0_wp
         end if
         if (load%over /= over_coordinate .or. load%variable%drive == 0) cycle

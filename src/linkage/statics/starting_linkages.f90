@@ -37,7 +37,7 @@ contains
       turning = sliding/span
     end if
     starting = linkage
-    starting%loads%damping = 0.0_wp
+    starting%loads%law%damping = 0.0_wp
     starting%loads%smooth = merge(sliding, turning, is_along_line(linkage%loads))
     if (.not. allocated(linkage%frictions)) return
     starting%frictions%viscous = 0.0_wp

@@ -7,7 +7,8 @@ module spring_cards
   use diagnostics, only: add_error, diagnostics_t
   use kinds, only: wp
   use natures, only: angle_nature, length_nature, nature_t
-  use stop_cards, only: read_contact
+  use pull_laws, only: pull_law_t
+  use stop_cards, only: contact_keys, read_contact
   use text, only: same_word
   use tokens, only: earlier, later, token_t
   use units, only: unit_system_t
@@ -28,16 +29,12 @@ module spring_cards
     type(token_t) :: link_names(2)       !! of a torsional one; the second has no line if the first
                                          !! turns against the ground
     integer :: link(2) = 0               !! numbers in the model's list; 0: unknown, the ground
-    real(wp) :: stiffness = 0.0_wp       !! [N/m] or [N m/rad]
-    real(wp) :: damping = 0.0_wp         !! [N s/m] or [N m s/rad]
+    type(pull_law_t) :: law              !! without `contact=` 0
     logical :: has_rest = .false.        !! `free_length=` or `free_angle=`; else it follows from
                                          !! the drawing
-    real(wp) :: rest = 0.0_wp            !! coordinate without load [m] or [rad]
     type(token_t) :: load_word           !! value of `force=` or `torque=`; else without a line
-    integer :: side = 0                  !! of its rest on which it acts: 1 pull, −1 push; 0: both
     type(token_t) :: side_word           !! value of `only=`; else without a line
     real(wp) :: gap = 0.0_wp             !! from the rest to where it acts [m] or [rad]
-    real(wp) :: contact = 0.0_wp         !! width of the contact [m] or [rad]; 0: not on the card
     real(wp) :: load = 0.0_wp            !! in the drawing: tension, or against a growing angle [N]
                                          !! or [N m]
   end type spring_card_t
@@ -100,22 +97,22 @@ contains
     end if
     if (spring%damps) then
       call read_factor(card, "damping", spring%nature%damping, known_keys, system, diagnostics, &
-        spring%damping, fine)
+        spring%law%damping, fine)
       return
     end if
     call read_factor(card, "stiffness", spring%nature%stiffness, known_keys, system, diagnostics, &
-      spring%stiffness, is_stiff)
+      spring%law%stiffness, is_stiff)
     call refuse_other_form(card, turns, diagnostics)
     call read_entry_quantity(card, rest, spring%nature%value, system, .false., diagnostics, &
-      spring%rest, spring%has_rest)
-    if (spring%has_rest .and. .not. turns) call refuse_negative(value_of(card, rest), spring%rest, &
-      "a free length", diagnostics)
+      spring%law%rest, spring%has_rest)
+    if (spring%has_rest .and. .not. turns) call refuse_negative(value_of(card, rest), &
+      spring%law%rest, "a free length", diagnostics)
     call read_entry_quantity(card, load, spring%nature%effort, system, .false., diagnostics, &
       spring%load, has_load)
     if (has_load) spring%load_word = value_of(card, load)
     call read_side(card, rest, load, is_stiff, system, diagnostics, spring)
     if (spring%has_rest .and. has_load) call refuse_both(card, rest, load, diagnostics)
-    if (is_stiff .and. .not. spring%stiffness > 0.0_wp .and. .not. has_load .and. &
+    if (is_stiff .and. .not. spring%law%stiffness > 0.0_wp .and. .not. has_load .and. &
       spring%side_word%line == 0) call &
       add_error(diagnostics, value_of(card, "stiffness"), &
       "a spring without stiffness does nothing but with '"//load//"=', which it then keeps")
@@ -131,7 +128,7 @@ contains
     type(diagnostics_t), intent(inout) :: diagnostics
     type(spring_card_t), intent(inout) :: spring !! with all else
 
-    character(len=*), parameter :: others(3) = ["gap    ", "damping", "contact"]
+    character(len=*), parameter :: others(*) = [character(len=7) :: "gap", contact_keys]
     logical :: fine
     integer :: choice, i
 
@@ -146,14 +143,14 @@ contains
     if (.not. has_value(card, "only")) return
     spring%side_word = value_of(card, "only")
     call read_choice(spring%side_word, "push pull", diagnostics, choice)
-    if (choice > 0) spring%side = merge(-1, 1, choice == 1)
+    if (choice > 0) spring%law%side = merge(-1, 1, choice == 1)
     call read_entry_quantity(card, "gap", spring%nature%value, system, .false., diagnostics, &
       spring%gap, fine)
     if (fine) call refuse_negative(value_of(card, "gap"), spring%gap, "a gap", diagnostics)
-    call read_contact(card, spring%nature, system, diagnostics, spring%damping, spring%contact)
+    call read_contact(card, spring%nature, system, diagnostics, spring%law)
     if (spring%load_word%line > 0) call add_error(diagnostics, key_of(card, load), &
       "a spring of one side is unloaded in the drawing, or at '"//rest//"='")
-    if (is_stiff) call require_positive(card, "stiffness", spring%stiffness, diagnostics)
+    if (is_stiff) call require_positive(card, "stiffness", spring%law%stiffness, diagnostics)
   end subroutine read_side
 
   !> Reads the value that every such card has.

@@ -7,12 +7,16 @@ module stop_cards
   use diagnostics, only: diagnostics_t
   use kinds, only: wp
   use natures, only: length_nature, nature_t
+  use pull_laws, only: pull_law_t
   use tokens, only: token_t
   use units, only: unit_system_t
   implicit none (type, external)
   private
 
-  public :: stop_card_t, read_stop, read_contact
+  public :: stop_card_t, read_stop, read_contact, contact_keys
+
+  !> Keys of what acts on one side of a limit, beside the stiffness.
+  character(len=*), parameter :: contact_keys(*) = [character(len=7) :: "damping", "contact"]
 
   type :: stop_card_t
     type(token_t) :: keyword
@@ -20,11 +24,7 @@ module stop_cards
     type(token_t) :: measure         !! name of the coordinate; without a line likewise
     integer :: number = 0            !! of the coordinate among those with names; 0: unknown
     type(nature_t) :: nature = length_nature !! of the coordinate
-    logical :: is_below = .false.    !! what is below the limit is pushed back; else what is above
-    real(wp) :: limit = 0.0_wp       !! [m] or [rad]
-    real(wp) :: stiffness = 0.0_wp   !! [N/m] or [N m/rad]
-    real(wp) :: damping = 0.0_wp     !! [N s/m] or [N m s/rad]
-    real(wp) :: contact = 0.0_wp     !! width of the contact [m] or [rad]; 0: not on the card
+    type(pull_law_t) :: law          !! its rest is the limit; without `contact=` 0
   end type stop_card_t
 
 contains
@@ -46,6 +46,7 @@ contains
     stop%name = token_t("", 0, 0)
     stop%measure = token_t("", 0, 0)
     stop%nature = nature
+    stop%law%side = 1
     call check_form(card, diagnostics, fine, known_keys)
     if (.not. fine) return
     stop%name = card%words(1)
@@ -53,37 +54,37 @@ contains
     stop%measure = card%words(2)
     if (size(card%words) > 2) then
       call read_choice(card%words(3), "below", diagnostics, choice)
-      stop%is_below = choice == 1
+      if (choice == 1) stop%law%side = -1
     end if
     call read_entry_quantity(card, "limit", nature%value, system, known_keys, diagnostics, &
-      stop%limit, fine)
+      stop%law%rest, fine)
     call read_entry_quantity(card, "stiffness", nature%stiffness, system, known_keys, diagnostics, &
-      stop%stiffness, fine)
-    if (fine) call require_positive(card, "stiffness", stop%stiffness, diagnostics)
-    call read_contact(card, nature, system, diagnostics, stop%damping, stop%contact)
+      stop%law%stiffness, fine)
+    if (fine) call require_positive(card, "stiffness", stop%law%stiffness, diagnostics)
+    call read_contact(card, nature, system, diagnostics, stop%law)
   end subroutine read_stop
 
-  !> Reads `[damping=] [contact=]` of what acts on one side of a limit. Errors: unreadable values, a
+  !> Reads the `contact_keys` of what acts on one side of a limit. Errors: unreadable values, a
   !! negative damping, a width that is not positive.
-  pure subroutine read_contact(card, nature, system, diagnostics, damping, contact)
+  pure subroutine read_contact(card, nature, system, diagnostics, law)
     type(card_t), intent(in) :: card                  !! of any kind
     type(nature_t), intent(in) :: nature              !! of the coordinate
     type(unit_system_t), intent(in) :: system         !! units of bare numbers
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
-    real(wp), intent(out) :: damping                  !! [N s/m] or [N m s/rad]
-    real(wp), intent(out) :: contact                  !! [m] or [rad]; 0: not on the card
+    type(pull_law_t), intent(inout) :: law            !! has its side and stiffness
 
     logical :: fine
 
     call read_entry_quantity(card, "damping", nature%damping, system, .false., diagnostics, &
-      damping, fine)
-    if (fine) call refuse_negative(value_of(card, "damping"), damping, "the damping", diagnostics)
-    call read_entry_quantity(card, "contact", nature%value, system, .false., diagnostics, contact, &
-      fine)
+      law%damping, fine)
+    if (fine) call refuse_negative(value_of(card, "damping"), law%damping, "the damping", &
+      diagnostics)
+    call read_entry_quantity(card, "contact", nature%value, system, .false., diagnostics, &
+      law%contact, fine)
     if (.not. fine) return
-    call require_positive(card, "contact", contact, diagnostics)
+    call require_positive(card, "contact", law%contact, diagnostics)
     ! It is not missing, too.
-    if (contact <= 0.0_wp) contact = 1.0_wp
+    if (law%contact <= 0.0_wp) law%contact = 1.0_wp
   end subroutine read_contact
 
 end module stop_cards

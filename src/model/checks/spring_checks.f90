@@ -293,7 +293,7 @@ contains
     character(len=:), allocatable :: key
     integer :: i, k
 
-    if (spring%damps .or. spring%has_rest .or. .not. spring%stiffness > 0.0_wp) return
+    if (spring%damps .or. spring%has_rest .or. .not. spring%law%stiffness > 0.0_wp) return
     key = "free_"//trim(spring%nature%noun)
     if (spring%turns) then
       do k = 1, 2
@@ -328,7 +328,7 @@ contains
       end do
     end do
     if (spring%turns .or. spring%load_word%line == 0) return
-    rest = norm2(place(:, 2) - place(:, 1)) - spring%load/spring%stiffness
+    rest = norm2(place(:, 2) - place(:, 1)) - spring%load/spring%law%stiffness
     if (rest < 0.0_wp) call add_error(diagnostics, spring%load_word, "with this force in the "// &
       "drawing and its stiffness the free length of the spring would be negative: "// &
       in_words(rest, dimension_length, model%units, 6))

@@ -63,14 +63,14 @@ contains
         if (stop%measure%line == 0) cycle
         call seek_coordinate(diagnostics, named, stop%measure, number)
         if (number > 0) call refuse_two(diagnostics, named, stop%measure, number)
-        call require_contact(diagnostics, model, stop%contact, stop%keyword)
+        call require_contact(diagnostics, model, stop%law%contact, stop%keyword)
         call refuse_reports(diagnostics, model, stop%keyword, "a STOP")
       end associate
     end do
     do i = 1, size(model%springs)
       associate (spring => model%springs(i))
-        if (spring%side == 0) cycle
-        call require_contact(diagnostics, model, spring%contact, spring%side_word)
+        if (spring%law%side == 0) cycle
+        call require_contact(diagnostics, model, spring%law%contact, spring%side_word)
         call refuse_reports(diagnostics, model, spring%side_word, "a spring of one side")
       end associate
     end do

@@ -1,6 +1,7 @@
 !> Stops that the drawing presses: told before the run, for a sign or a limit is wrong more often
 !! than a machine is drawn in its stop.
 module stop_drawings
+  use applied_load_types, only: deflection
   use constants, only: two_pi
   use coordinate_types, only: coordinate_t, is_angle, is_sum
   use coordinates, only: coordinate_value
@@ -11,7 +12,6 @@ module stop_drawings
   use mechanisms, only: mechanism_t
   use models, only: model_t
   use pose_types, only: drawn_pose, pose_t
-  use pulls, only: deflection
   use text, only: to_string
   use units, only: coherent_unit, from_si, unit_t
   implicit none (type, external)
@@ -46,7 +46,7 @@ contains
       do i = 1, size(model%stops)
         associate (load => linkage%loads(size(linkage%loads) - size(model%stops) + i), &
             nature => model%stops(i)%nature)
-          depth = load%side*deflection(load, drawn_value(linkage, pose, load%along))
+          depth = load%law%side*deflection(load, drawn_value(linkage, pose, load%along))
           if (depth <= rough*maxval(linkage%bodies%length)**nature%value(1)) cycle
           measure = coherent_unit(model%units, nature%value)
           call add_warning(diagnostics, model%stops(i)%name, "the drawing is "// &

@@ -1,5 +1,6 @@
 !> Coordinates of a moving linkage: rates, accelerations, what acts along them, ratios.
 module coordinate_study
+  use applied_load_types, only: deflection
   use constants, only: degree
   use coordinate_types, only: coordinate_t, is_distance, is_sum
   use coordinates, only: coordinate_acceleration, coordinate_rate, coordinate_value, is_turning
@@ -7,7 +8,7 @@ module coordinate_study
   use kinds, only: wp
   use linkages, only: linkage_t
   use pose_types, only: kinematic_coefficients_t, pose_t
-  use pulls, only: moving_pull, standing_pull
+  use pull_laws, only: moving_pull, standing_pull
   implicit none (type, external)
   private
 
@@ -45,7 +46,7 @@ contains
                                            !! [rad/s²], or [m/s] and [m/s²]
     type(coordinate_state_t) :: state
 
-    real(wp) :: per, value
+    real(wp) :: per, x
     integer :: i
 
     associate (coordinate => linkage%coordinates(number), speed => rates(1), &
@@ -65,8 +66,8 @@ contains
     do i = 1, size(linkage%loads)
       associate (load => linkage%loads(i))
         if (load%coordinate /= number) cycle
-        value = coordinate_value(linkage, pose, load%along)
-        state%effort = state%effort - standing_pull(load, value) - moving_pull(load, value, &
+        x = deflection(load, coordinate_value(linkage, pose, load%along))
+        state%effort = state%effort - standing_pull(load%law, x) - moving_pull(load%law, x, &
           state%rate)
       end associate
     end do

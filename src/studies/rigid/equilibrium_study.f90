@@ -1,6 +1,6 @@
 !> Where a linkage rests whose drive does not act, over all ranges of its first drive.
 module equilibrium_study
-  use applied_load_types, only: applied_load_t
+  use applied_load_types, only: applied_load_t, counts_turns
   use constants, only: degree
   use crank_limits, only: crank_range_t, find_ranges
   use equilibrium_search, only: equilibrium_t, search_range
@@ -11,7 +11,6 @@ module equilibrium_study
   use linkage_paths, only: period_of
   use linkages, only: gives_angle, linkage_t
   use load_tables, only: load_period
-  use pulls, only: counts_turns
   use rigid_bodies, only: rigid_bodies_of
   use sorting, only: ascending_order
   implicit none (type, external)
@@ -125,26 +124,27 @@ contains
     if (load_period(holding%linkage, period_of(holding%linkage)) > 0.0_wp) return
     if (.not. any(counts_drive(holding%linkage%loads))) return
     others = holding
-    where (counts_drive(others%linkage%loads)) others%linkage%loads%stiffness = 0.0_wp
+    where (counts_drive(others%linkage%loads)) others%linkage%loads%law%stiffness = 0.0_wp
     most = 0.0_wp
     do i = 0, steps - 1
       sample = others%sample(ends(1) + (ends(2) - ends(1))*i/steps)
       if (sample%is_known) most = max(most, abs(sample%force))
     end do
     associate (loads => holding%linkage%loads)
-      associate (is_spring => counts_drive(loads) .and. loads%side == 0)
-        stiffness = sum(loads%stiffness, mask=is_spring)
-        moment = sum(loads%stiffness*loads%rest, mask=is_spring)
+      associate (is_spring => counts_drive(loads) .and. loads%law%side == 0)
+        stiffness = sum(loads%law%stiffness, mask=is_spring)
+        moment = sum(loads%law%stiffness*loads%law%rest, mask=is_spring)
       end associate
       reach = [huge(1.0_wp), -huge(1.0_wp)]
       if (stiffness > 0.0_wp) reach = moment/stiffness + [-1.0_wp, 1.0_wp]*(1.1_wp*most/stiffness &
         + 10.0_wp*degree)
       do i = 1, size(loads)
         associate (stop => loads(i))
-          if (.not. counts_drive(stop) .or. stop%side == 0) cycle
-          press = 1.1_wp*(most + abs(stiffness*stop%rest - moment))/stop%stiffness + 10.0_wp*degree
-          reach(1) = min(reach(1), stop%rest - merge(360.0_wp*degree, press, stop%side > 0))
-          reach(2) = max(reach(2), stop%rest + merge(press, 360.0_wp*degree, stop%side > 0))
+          if (.not. counts_drive(stop) .or. stop%law%side == 0) cycle
+          press = 1.1_wp*(most + abs(stiffness*stop%law%rest - moment))/stop%law%stiffness + &
+            10.0_wp*degree
+          reach(1) = min(reach(1), stop%law%rest - merge(360.0_wp*degree, press, stop%law%side > 0))
+          reach(2) = max(reach(2), stop%law%rest + merge(press, 360.0_wp*degree, stop%law%side > 0))
         end associate
       end do
     end associate
@@ -173,7 +173,7 @@ contains
       return
     end do
     i = findloc(counts_drive(linkage%loads), .true., dim=1)
-    ends = ends + 360.0_wp*anint((linkage%loads(i)%rest/degree - 0.5_wp*sum(ends))/360.0_wp)
+    ends = ends + 360.0_wp*anint((linkage%loads(i)%law%rest/degree - 0.5_wp*sum(ends))/360.0_wp)
   end subroutine choose_turn
 
   !> Whether a load is along the angle of the first drive, with its turns.
@@ -181,7 +181,7 @@ contains
     type(applied_load_t), intent(in) :: load
     logical :: counts
 
-    counts = counts_turns(load) .and. load%along%drive == 1 .and. load%stiffness > 0.0_wp
+    counts = counts_turns(load) .and. load%along%drive == 1 .and. load%law%stiffness > 0.0_wp
   end function counts_drive
 
 end module equilibrium_study

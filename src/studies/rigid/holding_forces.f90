@@ -1,5 +1,6 @@
 !> What the first drive would have to give to hold a linkage at rest.
 module holding_forces
+  use applied_load_types, only: deflection
   use applied_loads, only: evaluate_loads, spring_scale
   use constants, only: degree
   use coordinates, only: evaluated_rate, evaluated_t
@@ -7,7 +8,7 @@ module holding_forces
   use lagrange, only: find_lagrange, lagrange_t
   use linkages, only: gives_angle, linkage_t
   use positions, only: find_state, state_t
-  use pulls, only: contact_depth
+  use pull_laws, only: contact_depth
   use rigid_bodies, only: rigid_body_t
   implicit none (type, external)
   private
@@ -109,19 +110,19 @@ contains
     integer :: i
 
     distance = huge(distance)
-    if (all(self%linkage%loads%side == 0)) return
+    if (all(self%linkage%loads%law%side == 0)) return
     state%crank = crank
     call find_state(self%linkage, state)
     if (allocated(state%error)) return
     call evaluate_loads(self%linkage, state%pose, along)
     do i = 1, size(along)
       associate (load => self%linkage%loads(i))
-        if (load%side == 0) cycle
-        depth = contact_depth(load, along(i)%value, evaluated_rate(self%linkage, state%pose, &
-          state%coefficients, load%along, along(i)))
+        if (load%law%side == 0) cycle
+        depth = contact_depth(load%law, deflection(load, along(i)%value), evaluated_rate( &
+          self%linkage, state%pose, state%coefficients, load%along, along(i)))
         if (gives_angle(self%linkage%drives(1))) depth(2) = depth(2)*degree
         if (abs(depth(2)) > 0.0_wp) distance = min(distance, min(abs(depth(1)), abs(depth(1) - &
-          load%contact))/abs(depth(2)))
+          load%law%contact))/abs(depth(2)))
       end associate
     end do
   end function smooth_distance

@@ -41,7 +41,7 @@ contains
     integer :: i
 
     if (.not. has_elastic_reactions(structure)) return
-    if (any(structure%linkage%loads%side /= 0)) then
+    if (any(structure%linkage%loads%law%side /= 0)) then
       call set_error(error, error_of_numerics, "how elasticity divides forces among redundant "// &
         "links is not found with stops and springs of one side; take a redundant link or joint "// &
         "away, or put a SPRING where they are in contact")
