@@ -1,4 +1,4 @@
-# Program, commands, plots, library, manual pages and completions below DESTDIR/PREFIX.
+# Program, commands, plots, documents, decks, library, manual pages and completions below DESTDIR/PREFIX.
 .PHONY: install
 
 there = $$DESTDIR$$PREFIX
@@ -9,7 +9,7 @@ install:
 	install -d -- "$(there)/bin" "$(share)/flexmech" "$(share)/man/man1" \
 	    "$(share)/bash-completion/completions" "$(share)/zsh/site-functions" "$(share)/fish/vendor_completions.d"
 	install -m 755 -- $(program) "$(there)/bin/flexmech"
-	cp -R -- plots library "$(share)/flexmech/"
+	cp -R -- plots library docs inputs "$(share)/flexmech/"
 	install -d -- "$(share)/flexmech/exchange/flexmech_files"
 	install -m 644 -- exchange/flexmech_files/*.py "$(share)/flexmech/exchange/flexmech_files"
 	install -m 755 -- plots/flexmech-plot plots/flexmech-report exchange/flexmech-import exchange/flexmech-export "$(there)/bin"
