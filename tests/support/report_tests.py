@@ -20,7 +20,8 @@ from table_tests import Fault, Table
 # Keys of reports, and what they are given here; others have no value, or the one that the pattern names.
 VALUES = {"accuracy": "1e-2", "coordinates": "yes", "crank": "40,50", "end": "0.02", "fluctuation": "2%", "pins": "yes", "points": "3",
           "ratio_to": "lift", "start": "steady", "step": "0.01", "turns": "0.02"}
-QUANTITIES = ["f2,torque,stress", "f2,torque", "torque"]  # of the report that has a list of them: the first that a linkage has
+# Of the report that has a list of them: the first that a linkage has.
+QUANTITIES = [f"{of_all},ratio:{name}" for of_all in ("f2,torque,stress", "f2,torque", "torque") for name in ("reach", "lean")]
 ONE_VALUE = ["motion", "transient"]  # reports that begin at one angle
 NOT_OF_POSITIONS = ["branches", "equilibrium", "linkage"]  # reports whose rows are no positions, and which so have no dead points
 # Nothing grows in these linkages, and no speed is critical.
