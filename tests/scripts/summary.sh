@@ -103,7 +103,7 @@ refused() {
     says "bad.deck:8:12: error:" && absent "$out/refused" || return 1
   tells "$scratch/stdout" 'd["exit_status"] == 2 and d["errors"] == [] and [deck["exit_status"] for deck in d["decks"]] == [2, None, 2, 2] and
     (8, 12) in [(e["line"], e["column"]) for e in d["decks"][0]["errors"]] and
-    any("st\u00e9\"\\\ufffd" in e["message"] for e in d["decks"][0]["errors"]) and
+    any("st\u00c3\u00a9\"\\\u00ff" in e["message"] for e in d["decks"][0]["errors"]) and
     any(e["second_place"] and e["second_place"]["line"] == 2 and e["second_place"]["column"] == 10 for e in d["decks"][0]["errors"]) and
     d["decks"][1]["errors"] == [] and [(e["line"], e["column"]) for e in d["decks"][2]["errors"]] == [(1, 9)] and
     [(e["line"], e["message"]) for e in d["decks"][3]["errors"]] == [(None, "no such file")]' || return 1
