@@ -4,7 +4,7 @@
 !! file in the order of reading. A line number is thus a unique place, and only messages need to
 !! look up the file.
 module deck_source
-  use encodings, only: is_utf8, utf8_of_windows
+  use encodings, only: is_utf8, utf8_of
   use errors, only: error_of_files, error_t, set_error
   use file_system, only: is_directory, read_standard_input, read_text
   use text, only: character_count, to_string
@@ -81,7 +81,7 @@ contains
     call take_text(path, text, reason, source, error)
   end subroutine read_file
 
-  !> What is text but not UTF-8 is taken for Windows-1252, in which older editors write umlauts.
+  !> Bytes that are not UTF-8 are taken for Windows-1252, in which older editors write umlauts.
   subroutine take_text(path, text, reason, source, error)
     character(len=*), intent(in) :: path
     character(len=*), intent(in) :: text
@@ -93,7 +93,7 @@ contains
       source = source_from_text(path, text)
       call find_binary(source, error)
       if (allocated(error) .or. is_utf8(text)) return
-      source = source_from_text(path, utf8_of_windows(text))
+      source = source_from_text(path, utf8_of(text))
     else
       call set_error(error, error_of_files, reason, path)
     end if

@@ -5,7 +5,7 @@ module encodings
   implicit none (type, external)
   private
 
-  public :: is_utf8, utf8_of_windows
+  public :: is_utf8, utf8_of
 
   !> Characters 128 to 159 of Windows-1252; those that it does not have are the replacement
   !! character.
@@ -32,32 +32,37 @@ contains
     end do
   end function is_utf8
 
-  !> A text in Windows-1252, of which Latin-1 is the printable part, in UTF-8.
-  pure function utf8_of_windows(text) result(utf8)
+  !> A text in UTF-8: bytes of it that are not are characters of Windows-1252, of which Latin-1 is
+  !! the printable part. A file may be joined from others, and may have a byte order mark.
+  pure function utf8_of(text) result(utf8)
     character(len=*), intent(in) :: text
     character(len=:), allocatable :: utf8
 
     type(text_buffer_t) :: buffer
-    integer :: i, code
+    integer :: i, code, length
 
-    do i = 1, len(text)
-      code = ichar(text(i:i))
-      if (code >= lbound(windows_signs, 1) .and. code <= ubound(windows_signs, 1)) code = &
-        windows_signs(code)
-      call append_text(buffer, utf8_character(code))
+    i = 1
+    do while (i <= len(text))
+      length = character_length(text(i:min(i + 3, len(text))))
+      if (length > 0) then
+        call append_text(buffer, text(i:i + length - 1))
+      else
+        code = ichar(text(i:i))
+        if (code <= ubound(windows_signs, 1)) code = windows_signs(code)
+        call append_text(buffer, utf8_character(code))
+      end if
+      i = i + max(1, length)
     end do
     utf8 = buffer_text(buffer)
-  end function utf8_of_windows
+  end function utf8_of
 
-  !> A character of at most three bytes.
+  !> A character of two or three bytes.
   pure function utf8_character(code) result(bytes)
     integer, intent(in) :: code !! in Unicode
     character(len=:), allocatable :: bytes
 
     select case (code)
-    case (:127)
-      bytes = char(code)
-    case (128:2047)
+    case (:2047)
       bytes = char(192 + code/64)//char(128 + mod(code, 64))
     case default
       bytes = char(224 + code/4096)//char(128 + mod(code/64, 64))//char(128 + mod(code, 64))
