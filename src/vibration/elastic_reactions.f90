@@ -160,8 +160,12 @@ contains
     type(elastic_division_t), intent(in) :: division
     type(divided_position_t), intent(inout) :: at
 
-    call lump_loads(division, at%here%elastic_position_t, at%here%loaded%loads)
-    call find_forces(division, at, at%here%loaded)
+    type(loaded_parts_t) :: loaded
+
+    loaded%loads = at%here%loaded%loads
+    call lump_loads(division, at%here%elastic_position_t, loaded%loads)
+    call find_forces(division, at, loaded)
+    at%here%loaded = loaded
   end subroutine load_nodes
 
   !> The forces in the parts under loads.
