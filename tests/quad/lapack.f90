@@ -7,7 +7,7 @@ module lapack
   implicit none (type, external)
   private
 
-  public :: dsygvx, dpbtrf, dpbtrs, dgetf2, dgetrf, dgetrs, dgeev, dsaupd, dseupd
+  public :: dsygvx, dpbtrf, dpbtrs, dgetrf, dgetrs, dgeev, dsaupd, dseupd
 
   integer, parameter :: not_available = -1 !! a value of info that says that a routine has failed
 

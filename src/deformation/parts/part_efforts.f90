@@ -60,7 +60,7 @@ contains
     type(pose_t), intent(in) :: pose                !! of it
     type(kinematic_coefficients_t), intent(in) :: now !! velocities [m/s], [rad/s]
     type(elastic_position_t), intent(in) :: at      !! of it; places of such forces on parts that
-                                                        !! bend are among its `forced`
+                                                    !! bend are among its `forced`
     type(part_loads_t), intent(inout) :: loads      !! of these parts
 
     real(wp), allocatable :: pull(:)

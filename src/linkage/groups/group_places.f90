@@ -310,7 +310,7 @@ contains
       body=body_of(group))
   end subroutine improve_group
 
-  !> A body that a group is about; 0 if its equations are about pins on lines only.
+  !> A body that a group is about; 0 if its equations are about pins on fixed lines only.
   pure function body_of(group) result(body)
     type(group_t), intent(in) :: group
     integer :: body

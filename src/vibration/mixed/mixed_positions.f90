@@ -188,7 +188,7 @@ contains
   pure subroutine modes_on_border(mixed, at, modes, chords, border_mass, found)
     type(mixed_position_t), intent(in) :: mixed     !! at this position
     type(elastic_position_t), intent(inout) :: at   !! of it; the layout of its model becomes that
-                                                       !! of the border and own modes
+                                                    !! of the border and own modes
     type(bordered_modes_t), intent(in) :: modes     !! in the unknowns of the form
     type(chords_t), intent(out) :: chords           !! what unit unknowns of the border do
     real(wp), allocatable, intent(out) :: border_mass(:, :) !! M between the border's [s²]
