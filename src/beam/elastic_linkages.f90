@@ -9,9 +9,11 @@
 !!
 !! Of a crank and dyads of binary links every link is a part, and its pins move in closed form.
 module elastic_linkages
-  use applied_load_types, only: applied_load_t, applies_along, is_torsional
+  use applied_load_types, only: applied_load_t, applies_along, applies_force, is_torsional
   use beam_mesh, only: beam_t
+  use coordinate_types, only: terminal_t
   use cut_ways, only: carried_t, cut_way_t, find_ways, fixed_lumps, nearest_way
+  use elastic_terminals, only: elastic_terminal_t, fixed_rotation
   use kinds, only: wp
   use linkages, only: drive_of_angle, drive_of_length, drive_of_slider, forced_place_t, &
     is_dyad_linkage, linkage_t, lump_t
@@ -22,16 +24,12 @@ module elastic_linkages
   private
 
   public :: elastic_linkage_t, spring_t, new_elastic_linkage, scaled_link, &
-    is_piece, add_couple, fixed_rotation, spring_pin, shared_pin
-
-  !> Of an end that cannot turn.
-  integer, parameter :: fixed_rotation = -1
+    is_piece, add_couple, shared_pin
 
   !> A spring, a constant tension or a damper of the linkage.
   type :: spring_t
     integer :: load = 0             !! its number among the loads
     logical :: turns = .false.      !! between two rotations; else along a line
-    integer :: rotation(2) = 0      !! numbers; the ground is a `fixed_rotation`
     real(wp) :: stiffness = 0.0_wp  !! [N/m] or [N m/rad]
     real(wp) :: damping = 0.0_wp    !! of a damper [N s/m] or [N m s/rad]
   end type spring_t
@@ -60,7 +58,17 @@ module elastic_linkages
     type(carried_t), allocatable :: carried(:) !! what cuts carry
     integer, allocatable :: cut_part(:)       !! (sliders) that ends there at the position; the next
                                               !! one begins
-    integer, allocatable :: guide_rotation(:) !! (sliders) of the guide at the block; 0: it is fixed
+    ! What acts on the second of two terminals acts back on the first.
+    type(elastic_terminal_t), allocatable :: load_ends(:, :) !! (2, loads) of a pull; of a force the
+                                              !! second is where it acts
+    type(elastic_terminal_t), allocatable :: sliding(:, :) !! (2, sliders) the guide under the
+                                              !! block, the block
+    type(elastic_terminal_t), allocatable :: driven(:, :) !! (2, drives) of an angle: against what,
+                                              !! what turns; of a slider its own
+    type(elastic_terminal_t), allocatable :: turning(:, :) !! (2, turns) with what, what turns
+    type(elastic_terminal_t), allocatable :: rubbing(:, :) !! (2, frictions) on what, what rubs
+    integer, allocatable :: free_drives(:)    !! numbers of drives that hold nothing: what they give
+                                              !! follows from the motion
     type(spring_t), allocatable :: springs(:) !! with a stiffness
     type(spring_t), allocatable :: tensions(:) !! without one
     type(spring_t), allocatable :: dampers(:) !! with a damping
@@ -105,6 +113,7 @@ contains
     call add_parts(linkage, beams, elastic)
     call add_rotations(linkage, elastic)
     elastic%in_closed_form = moves_in_closed_form(linkage)
+    if (elastic%in_closed_form) elastic%linkage%groups = linkage%groups
   end function new_elastic_linkage
 
   !> Whether the length of a part of a link that bends, and its ends, are those of the position.
@@ -146,11 +155,9 @@ contains
     integer :: i, n
 
     n = size(linkage%is_ground)
-    allocate (elastic%contact(size(linkage%sliders)), elastic%cut_part(size(linkage%sliders)), &
-      elastic%guide_rotation(size(linkage%sliders)))
+    allocate (elastic%contact(size(linkage%sliders)), elastic%cut_part(size(linkage%sliders)))
     elastic%contact = 0
     elastic%cut_part = 0
-    elastic%guide_rotation = 0
     do i = 1, size(linkage%sliders)
       if (linkage%sliders(i)%body == 0) cycle
       if (.not. linkage%bodies(linkage%sliders(i)%body)%bends) cycle
@@ -175,6 +182,7 @@ contains
       parts%loads = linkage%loads
       parts%sliders = linkage%sliders
       parts%drives = linkage%drives
+      if (allocated(linkage%frictions)) parts%frictions = linkage%frictions
       parts%has_crank = linkage%has_crank
       allocate (parts%turns(0), parts%groups(0), parts%redundancies(0))
       elastic%is_fixed = parts%is_ground
@@ -366,10 +374,6 @@ contains
     do k = 1, n
       if (.not. elastic%linkage%bodies(k)%bends) elastic%held(:, k) = .false.
     end do
-    do i = 1, size(linkage%sliders)
-      if (linkage%sliders(i)%body > 0) elastic%guide_rotation(i) = number_of(ends, &
-        linkage%sliders(i)%body, elastic%contact(i))
-    end do
     do i = 1, size(elastic%ways)
       associate (way => elastic%ways(i))
         way%rotation = [(number_of(ends, way%body, way%pins(k)), k=1, 2)]
@@ -383,30 +387,106 @@ contains
         this%rotation = number_of(ends, this%body, this%point)
       end associate
     end do
-    call number_springs(linkage, ends, elastic%springs)
-    call number_springs(linkage, ends, elastic%tensions)
-    call number_springs(linkage, ends, elastic%dampers)
+    call add_terminals(linkage, ends, elastic)
   end subroutine add_rotations
 
-  !> Rotations of springs, tensions or dampers that turn.
-  pure subroutine number_springs(linkage, ends, springs)
+  !> Where pulls and forces, blocks, drives and turns hold the linkage.
+  pure subroutine add_terminals(linkage, ends, elastic)
     type(linkage_t), intent(in) :: linkage
-    type(turning_ends_t), intent(in) :: ends
-    type(spring_t), intent(inout) :: springs(:)
+    type(turning_ends_t), intent(in) :: ends !! numbered
+    type(elastic_linkage_t), intent(inout) :: elastic
 
-    integer :: i, k
+    integer :: i, k, pin, loads, frictions
 
-    do i = 1, size(springs)
-      if (.not. springs(i)%turns) cycle
-      associate (load => linkage%loads(springs(i)%load))
-        do k = 1, 2
-          springs(i)%rotation(k) = fixed_rotation
-          if (load%along%at(k)%body > 0) springs(i)%rotation(k) = number_of(ends, &
-            load%along%at(k)%body, spring_pin(linkage, springs(i)%load))
-        end do
+    loads = 0
+    if (allocated(linkage%loads)) loads = size(linkage%loads)
+    frictions = 0
+    if (allocated(linkage%frictions)) frictions = size(linkage%frictions)
+    allocate (elastic%load_ends(2, loads), elastic%sliding(2, size(linkage%sliders)), &
+      elastic%driven(2, size(linkage%drives)), elastic%turning(2, size(linkage%turns)), &
+      elastic%rubbing(2, frictions))
+    do i = 1, loads
+      associate (load => linkage%loads(i), at => elastic%load_ends(:, i))
+        if (load%kind == applies_force) then
+          at(2) = place_on(load%at)
+        else if (load%kind == applies_along) then
+          do k = 1, 2
+            if (is_torsional(load)) then
+              at(k) = end_on(load%along%at(k)%body, spring_pin(linkage, i))
+            else
+              at(k) = place_on(load%along%at(k))
+            end if
+          end do
+        end if
       end associate
     end do
-  end subroutine number_springs
+    do i = 1, size(linkage%sliders)
+      elastic%sliding(1, i) = end_on(linkage%sliders(i)%body, elastic%contact(i))
+      if (elastic%sliding(1, i)%is_rigid) elastic%sliding(1, i)%block = linkage%sliders(i)%pin
+      elastic%sliding(2, i)%point = linkage%sliders(i)%pin
+    end do
+    do i = 1, size(linkage%drives)
+      associate (drive => linkage%drives(i))
+        if (drive%kind == drive_of_slider) elastic%driven(:, i) = elastic%sliding(:, drive%slider)
+        if (drive%kind /= drive_of_angle) cycle
+        pin = shared_pin(linkage, drive%body, drive%against)
+        elastic%driven(1, i) = end_on(drive%against, pin)
+        elastic%driven(2, i) = end_on(drive%body, pin)
+      end associate
+    end do
+    do i = 1, size(linkage%turns)
+      associate (turn => linkage%turns(i))
+        pin = turn%pin
+        elastic%turning(2, i) = end_on(turn%body, pin)
+        if (turn%slider > 0) then
+          if (elastic%contact(turn%slider) > 0) pin = elastic%contact(turn%slider)
+        end if
+        elastic%turning(1, i) = end_on(turn%against, pin)
+      end associate
+    end do
+    do i = 1, frictions
+      associate (rub => linkage%frictions(i))
+        if (rub%slider > 0) then
+          elastic%rubbing(:, i) = elastic%sliding(:, rub%slider)
+        else
+          elastic%rubbing(1, i) = end_on(rub%against, rub%pin)
+          elastic%rubbing(2, i) = end_on(rub%body, rub%pin)
+        end if
+      end associate
+    end do
+    elastic%free_drives = pack([(i, i=1, size(linkage%drives))], linkage%drives%is_free)
+
+  contains
+
+    !> The end of a link at a pin, or a rigid link as a whole.
+    pure function end_on(body, pin) result(terminal)
+      integer, intent(in) :: body !! number; 0: the ground
+      integer, intent(in) :: pin  !! or point
+      type(elastic_terminal_t) :: terminal
+
+      terminal%rotation = fixed_rotation
+      if (body == 0) return
+      terminal%part = findloc(elastic%body, body, dim=1)
+      terminal%rotation = number_of(ends, body, pin)
+      terminal%point = pin
+      terminal%is_rigid = .not. linkage%bodies(body)%bends
+      if (terminal%is_rigid) terminal%point = linkage%bodies(body)%first_pin
+    end function end_on
+
+    !> A pin, a place on a rigid link, or one of a link that bends.
+    pure function place_on(at) result(terminal)
+      type(terminal_t), intent(in) :: at
+      type(elastic_terminal_t) :: terminal
+
+      terminal%point = at%pin
+      if (at%body > 0) then
+        terminal = end_on(at%body, 0)
+        if (.not. terminal%is_rigid) terminal%point = 0
+      end if
+      terminal%place = at%place
+    end function place_on
+
+  end subroutine add_terminals
 
   !> Springs, tensions or dampers; those that turn hold the ends that they turn.
   pure subroutine add_springs(linkage, is_one, ends, springs)

@@ -8,7 +8,7 @@ module elastic_reactions
   use applied_loads, only: add_moving_loads, evaluate_loads, forced_places, has_moving_loads
   use coordinates, only: evaluated_t
   use deformation_model, only: deformation_model_t, new_deformation_model
-  use elastic_linkages, only: elastic_linkage_t, new_elastic_linkage, shared_pin
+  use elastic_linkages, only: elastic_linkage_t, new_elastic_linkage
   use elastic_positions, only: elastic_position_t
   use errors, only: error_of_input, error_t, set_error
   use group_factors, only: factorize_groups, group_factors_t
@@ -21,7 +21,7 @@ module elastic_reactions
   use load_cases, only: case_count, find_unit_loads
   use mixed_positions, only: find_mixed_forces
   use part_displacements, only: border_size
-  use part_efforts, only: add_end_couple, add_friction_effort, add_moving_efforts, effort_case, &
+  use part_efforts, only: add_drive_effort, add_friction_effort, add_moving_efforts, effort_case, &
     no_part_loads
   use part_force_types, only: loaded_parts_t, part_loads_t
   use part_forces, only: find_part_forces
@@ -89,6 +89,7 @@ contains
       end if
     end associate
     division%structure%elastic = new_elastic_linkage(released, structure%beams)
+    if (.not. present(crank)) division%structure%elastic%free_drives = [integer ::]
     call take_statics(structure%load_elements, division%structure%elastic)
     call new_elastic_model(division%structure, division%model, error, crank)
   end subroutine new_elastic_division
@@ -178,9 +179,9 @@ contains
 
     associate (here => at%here, linkage => division%structure%linkage)
       if (allocated(here%mixed)) then
-        call find_mixed_forces(linkage, here%elastic_position_t, here%mixed, loaded, solution)
+        call find_mixed_forces(here%elastic_position_t, here%mixed, loaded, solution)
       else
-        call find_part_forces(linkage, here%elastic_position_t, here%border, at%chords, loaded)
+        call find_part_forces(here%elastic_position_t, here%border, at%chords, loaded)
       end if
     end associate
   end subroutine find_forces
@@ -351,7 +352,7 @@ contains
         call put_friction(linkage, at%pose, rubbing, effort, body_load, pin_load)
         joints(k) = find_joint_forces(linkage, at%pose, body_load, pin_load, factors)
         loaded%loads = no_part_loads(at%here%elastic)
-        call add_friction_effort(linkage, at%pose, k, at%here%elastic_position_t, loaded%loads)
+        call add_friction_effort(k, at%here%elastic_position_t, loaded%loads)
         call find_effort_forces(division, at, loaded, joints(k))
       end do
     end associate
@@ -396,12 +397,8 @@ contains
       if (has_moving_loads(linkage)) call add_moving_efforts(linkage, pose, motion, &
         at%here%elastic_position_t, loaded%loads)
       associate (drive => linkage%drives(1))
-        if (drive%kind == drive_of_angle) then
-          call add_end_couple(at%here%elastic, drive%body, shared_pin(linkage, drive%body, &
-            drive%against), drive_force, loaded%loads)
-          if (drive%against > 0) call add_end_couple(at%here%elastic, drive%against, &
-            shared_pin(linkage, drive%body, drive%against), -drive_force, loaded%loads)
-        end if
+        if (drive%kind == drive_of_angle) call add_drive_effort(1, drive_force, &
+          at%here%elastic_position_t, loaded%loads)
       end associate
       call find_forces(division, at, loaded)
       call add_forces(loaded, effort_case)

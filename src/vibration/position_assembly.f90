@@ -182,7 +182,7 @@ contains
 
     call place_parts(structure, model, pose, here, error)
     if (allocated(error)) return
-    call find_part_chords(structure%linkage, here%elastic_position_t, any(here%loads%occurs), &
+    call find_part_chords(here%elastic_position_t, any(here%loads%occurs), &
       here%border, chords, error)
     if (allocated(error)) return
     if (any(here%loads%occurs) .or. .not. here%elastic%in_closed_form) call find_part_loads( &
@@ -192,7 +192,7 @@ contains
         here%loaded%forces)
       return
     end if
-    call find_part_forces(structure%linkage, here%elastic_position_t, here%border, chords, &
+    call find_part_forces(here%elastic_position_t, here%border, chords, &
       here%loaded)
   end subroutine load_parts
 
@@ -217,7 +217,7 @@ contains
       call assemble_rest(at, mixed)
       if (any(here%loads%occurs) .or. .not. with_stiffness) call hold(here%pose, mixed, error)
       if (allocated(error)) return
-      call find_mixed_forces(structure%linkage, at, mixed, here%loaded, solution)
+      call find_mixed_forces(at, mixed, here%loaded, solution)
       call move_alloc(solution, mixed%solution)
       if (with_stiffness) call stiffen(at, here%loaded, mixed)
     end associate

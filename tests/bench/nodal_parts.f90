@@ -2,7 +2,6 @@
 !! rotations shared where parts are welded, blocks eliminated; and their lowest eigenvalues from a library routine.
 module nodal_parts
   use beam_element, only: element_mass, element_stiffness, element_unknowns, new_reference_element, reference_element_t
-  use border_rows, only: line_direction
   use elastic_linkages, only: elastic_linkage_t
   use element_axes, only: turned_to_global
   use errors, only: error_of_numerics, error_t, set_error
@@ -12,6 +11,7 @@ module nodal_parts
   use part_poses, only: place_parts_of
   use pose_types, only: pose_t
   use structures, only: structure_t
+  use terminal_work, only: line_direction
   use text, only: to_string
   implicit none (type, external)
   private

@@ -183,8 +183,7 @@ contains
         here = new_assembled(mechanism, sample%model)
         call place_parts(mechanism, sample%model, sample%pose, here, error)
       end if
-      if (.not. allocated(error)) call find_part_chords(mechanism%linkage, &
-        here%elastic_position_t, .true., here%border, sample%chords, error)
+      if (.not. allocated(error)) call find_part_chords(here%elastic_position_t, .true., here%border, sample%chords, error)
       if (allocated(error)) then
         complaint = error%text
         return
@@ -193,8 +192,7 @@ contains
       here%loads = find_unit_loads(mechanism%linkage, sample%pose, sample%coefficients)
       call find_part_loads(mechanism%linkage, sample%pose, here%loads, here%elastic_position_t, &
         here%loaded%loads)
-      call find_part_forces(mechanism%linkage, here%elastic_position_t, here%border, &
-        sample%chords, here%loaded)
+      call find_part_forces(here%elastic_position_t, here%border, sample%chords, here%loaded)
     end associate
   end subroutine find_sample
 

@@ -6,13 +6,13 @@
 module part_displacements
   use border_rows, only: find_border_rows
   use dense_factor, only: dense_factor_t, factorize, solve
-  use drive_rates, only: find_drive_rates
+  use drive_rates, only: drive_rates_of
   use elastic_linkages, only: is_piece
   use elastic_positions, only: elastic_position_t
   use errors, only: error_of_dead_point, error_t, set_error
   use graded_rows, only: find_row_basis, graded_rows_t, row_basis_t
   use kinds, only: wp
-  use linkages, only: linkage_t, normal_to
+  use linkages, only: normal_to
   use pin_displacements, only: chords_t, find_chords
   use poses, only: dead_point_sine, refuse_change_point
   use text, only: to_string
@@ -50,8 +50,7 @@ contains
   !!
   !! Errors: a change point at which no redundant links hold the linkage; more or fewer free motions
   !! than it has elsewhere: a dead point.
-  pure subroutine find_part_chords(linkage, at, with_forces, border, chords, error)
-    type(linkage_t), intent(in) :: linkage         !! that moves: its drives
+  pure subroutine find_part_chords(at, with_forces, border, chords, error)
     type(elastic_position_t), intent(in) :: at     !! of it, with parts that are placed
     logical, intent(in) :: with_forces             !! constraints, too
     type(border_t), intent(inout) :: border        !! of this linkage
@@ -59,7 +58,7 @@ contains
     type(error_t), allocatable, intent(out) :: error
 
     if (at%elastic%in_closed_form) then
-      chords = find_chords(linkage, at%model%links, at%pose)
+      chords = find_chords(at%elastic%linkage, at%model%links, at%pose)
       border%is_new = .false.
       return
     end if
@@ -82,13 +81,12 @@ contains
       allocate (chords%weighted(size(border%rows%weight), unknowns), source=0.0_wp)
       chords%weighted(:, :unknowns - free) = border%basis%weighted
       chords%free = free
-      if (free > 0) call count_by_drives(linkage, at, border, chords)
+      if (free > 0) call count_by_drives(at, border, chords)
     end associate
   end subroutine find_part_chords
 
   !> Counts free motions by the drives that are free: the unknowns then mean the same everywhere.
-  pure subroutine count_by_drives(linkage, at, border, chords)
-    type(linkage_t), intent(in) :: linkage
+  pure subroutine count_by_drives(at, border, chords)
     type(elastic_position_t), intent(in) :: at
     type(border_t), intent(inout) :: border
     type(chords_t), intent(inout) :: chords
@@ -99,7 +97,7 @@ contains
     real(wp) :: unit(chords%free)
     integer :: i, n
 
-    call find_drive_rates(linkage, at, chords, rate)
+    rate = drive_rates_of(at, chords)
     if (size(rate, 1) /= chords%free) return
     n = size(chords%turn, 1) - chords%free
     call factorize(rate(:, n + 1:), factor)

@@ -1,14 +1,13 @@
 !> Loads of parts beside those that a pose determines: dampers, resistances and loads in one
 !! direction of the motion, friction in a joint, the torque of a motor. All are in the first case.
 module part_efforts
-  use applied_load_types, only: applies_couple, applies_force, is_torsional
+  use applied_load_types, only: applies_couple, applies_force
   use applied_loads, only: evaluate_loads, is_moving, moving_couple, moving_force, moving_pulls
   use carried_bodies, only: carried_force
-  use coordinate_types, only: terminal_t
   use coordinates, only: evaluated_t
-  use elastic_linkages, only: add_couple, elastic_linkage_t, spring_pin
+  use elastic_linkages, only: add_couple, elastic_linkage_t
   use elastic_positions, only: elastic_position_t
-  use group_equations, only: line_axis
+  use elastic_terminals, only: elastic_terminal_t
   use kinds, only: wp
   use kinematic_coefficients, only: kinematic_coefficients_t
   use linkages, only: cross, linkage_t
@@ -16,10 +15,11 @@ module part_efforts
   use part_force_types, only: part_loads_t
   use part_poses, only: highest_force
   use poses, only: arm_to_place, pose_t
+  use terminal_work, only: find_end, line_direction, terminal_arm
   implicit none (type, external)
   private
 
-  public :: effort_case, no_part_loads, add_moving_efforts, add_friction_effort, add_end_couple
+  public :: effort_case, no_part_loads, add_moving_efforts, add_friction_effort, add_drive_effort
 
   !> The case that holds these loads: one without what only loads at rest have.
   integer, parameter :: effort_case = 1
@@ -70,25 +70,18 @@ contains
     call evaluate_loads(linkage, pose, along)
     pull = moving_pulls(linkage, pose, along, now)
     do i = 1, size(linkage%loads)
-      associate (load => linkage%loads(i))
+      associate (load => linkage%loads(i), ends => at%elastic%load_ends(:, i))
         if (.not. is_moving(load)) cycle
         select case (load%kind)
         case (applies_force)
-          call add_force(at%elastic, at%pose, i, load%at, moving_force(linkage, pose, now, load), &
-            loads)
+          call add_load(at, i, ends(2), moving_force(linkage, pose, now, load), 0.0_wp, loads)
         case (applies_couple)
           call add_couple(at%elastic, load%at%body, moving_couple(linkage, pose, now, load), &
             loads%unit%of_case(effort_case)%couple)
         case default
           do k = 1, 2
             associate (wrench => along(i)%wrench(k))
-              if (is_torsional(load)) then
-                call add_end_couple(at%elastic, load%along%at(k)%body, spring_pin(linkage, &
-                  i), -pull(i)*wrench%couple, loads)
-              else
-                call add_force(at%elastic, at%pose, i, load%along%at(k), -pull(i)*wrench%force, &
-                  loads)
-              end if
+              call add_load(at, i, ends(k), -pull(i)*wrench%force, -pull(i)*wrench%couple, loads)
             end associate
           end do
         end select
@@ -97,87 +90,86 @@ contains
   end subroutine add_moving_efforts
 
   !> Adds the loads of a unit friction force or couple in a joint, as `put_friction` does.
-  pure subroutine add_friction_effort(linkage, pose, number, at, loads)
-    type(linkage_t), intent(in) :: linkage          !! that moves, with its frictions
-    type(pose_t), intent(in) :: pose                !! of it
+  pure subroutine add_friction_effort(number, at, loads)
     integer, intent(in) :: number                   !! of the friction
-    type(elastic_position_t), intent(in) :: at      !! of it
+    type(elastic_position_t), intent(in) :: at
     type(part_loads_t), intent(inout) :: loads      !! of these parts
 
-    real(wp) :: force(2)
-    integer :: k
-
-    associate (rub => linkage%frictions(number), case => loads%unit%of_case(effort_case))
-      if (rub%slider == 0) then
-        call add_end_couple(at%elastic, rub%body, rub%pin, 1.0_wp, loads)
-        call add_end_couple(at%elastic, rub%against, rub%pin, -1.0_wp, loads)
-        return
+    associate (slider => at%elastic%linkage%frictions(number)%slider, ends => &
+        at%elastic%rubbing(:, number))
+      if (slider > 0) then
+        call add_load_between(at, ends, line_direction(at%elastic, at%pose, slider), 0.0_wp, loads)
+      else
+        call add_load_between(at, ends, [0.0_wp, 0.0_wp], 1.0_wp, loads)
       end if
-      force = line_axis(linkage, pose, rub%slider)
-      case%pin_force(:, rub%pin) = case%pin_force(:, rub%pin) + force
-      associate (carrier => linkage%sliders(rub%slider)%body, point => &
-        at%elastic%contact(rub%slider))
-        if (point > 0) then
-          case%pin_force(:, point) = case%pin_force(:, point) - force
-        else if (carrier > 0) then
-          k = findloc(at%elastic%body, carrier, dim=1)
-          case%body_force(:, k) = case%body_force(:, k) - force
-          case%couple(k) = case%couple(k) - cross(at%pose%pin(:, rub%pin) - at%pose%pin(:, &
-            at%elastic%linkage%bodies(k)%first_pin), force)
-        end if
-      end associate
     end associate
   end subroutine add_friction_effort
 
-  !> Adds a couple on a link where it is at a pin: on the end of a part that bends.
-  pure subroutine add_end_couple(elastic, body, pin, couple, loads)
-    type(elastic_linkage_t), intent(in) :: elastic  !! parts
-    integer, intent(in) :: body                     !! number of the link; 0: the ground
-    integer, intent(in) :: pin                      !! one of its pins
-    real(wp), intent(in) :: couple                  !! [N m]
+  !> Adds the torque of a drive of an angle.
+  pure subroutine add_drive_effort(number, torque, at, loads)
+    integer, intent(in) :: number                   !! of the drive
+    real(wp), intent(in) :: torque                  !! [N m]
+    type(elastic_position_t), intent(in) :: at
     type(part_loads_t), intent(inout) :: loads      !! of these parts
 
-    integer :: e, k
+    call add_load_between(at, at%elastic%driven(:, number), [0.0_wp, 0.0_wp], torque, loads)
+  end subroutine add_drive_effort
 
-    if (body == 0) return
-    k = findloc(elastic%body, body, dim=1)
-    if (elastic%linkage%bodies(k)%bends) then
-      do k = findloc(elastic%body, body, dim=1), findloc(elastic%body, body, dim=1, back=.true.)
-        associate (part => elastic%linkage%bodies(k))
-          e = findloc([part%first_pin, part%last_pin], pin, dim=1)
-        end associate
-        if (e == 0) cycle
-        loads%end_couple(e, k, effort_case) = loads%end_couple(e, k, effort_case) + couple
+  !> Adds a force and a couple on the second of two terminals, and the opposite on the first.
+  pure subroutine add_load_between(at, ends, force, couple, loads)
+    type(elastic_position_t), intent(in) :: at
+    type(elastic_terminal_t), intent(in) :: ends(2)
+    real(wp), intent(in) :: force(2), couple
+    type(part_loads_t), intent(inout) :: loads
+
+    call add_load(at, 0, ends(2), force, couple, loads)
+    call add_load(at, 0, ends(1), -force, -couple, loads)
+  end subroutine add_load_between
+
+  !> Adds a force and a couple at a terminal.
+  pure subroutine add_load(at, number, terminal, force, couple, loads)
+    type(elastic_position_t), intent(in) :: at
+    integer, intent(in) :: number             !! of the load, at a place of a link that bends
+    type(elastic_terminal_t), intent(in) :: terminal
+    real(wp), intent(in) :: force(2), couple
+    type(part_loads_t), intent(inout) :: loads
+
+    integer :: part, end
+
+    associate (case => loads%unit%of_case(effort_case))
+      if (terminal%is_rigid) then
+        part = terminal%part
+        case%body_force(:, part) = case%body_force(:, part) + force
+        case%couple(part) = case%couple(part) + couple + cross(terminal_arm(at%pose, terminal), &
+          force)
         return
-      end do
-    end if
-    call add_couple(elastic, body, couple, loads%unit%of_case(effort_case)%couple)
-  end subroutine add_end_couple
+      end if
+      if (terminal%point > 0) then
+        case%pin_force(:, terminal%point) = case%pin_force(:, terminal%point) + force
+      else if (terminal%part > 0) then
+        call add_at_places(at%elastic, at%pose, number, terminal%part, force, loads)
+      end if
+    end associate
+    if (terminal%part == 0 .or. .not. abs(couple) > 0.0_wp) return
+    call find_end(at%elastic, terminal, part, end)
+    loads%end_couple(end, part, effort_case) = loads%end_couple(end, part, effort_case) + couple
+  end subroutine add_load
 
-  !> Adds a force at a pin or at a place of a link.
-  pure subroutine add_force(elastic, placed, number, at, force, loads)
+  !> Adds a force at a place between the points of a link that bends.
+  pure subroutine add_at_places(elastic, placed, number, first, force, loads)
     type(elastic_linkage_t), intent(in) :: elastic
     type(pose_t), intent(in) :: placed
     integer, intent(in) :: number !! of the load
-    type(terminal_t), intent(in) :: at
+    integer, intent(in) :: first  !! part of the link
     real(wp), intent(in) :: force(2)
     type(part_loads_t), intent(inout) :: loads
 
     integer :: i, k
 
     associate (case => loads%unit%of_case(effort_case))
-      if (at%pin > 0) then
-        case%pin_force(:, at%pin) = case%pin_force(:, at%pin) + force
-        return
-      end if
-      do k = findloc(elastic%body, at%body, dim=1), findloc(elastic%body, at%body, dim=1, &
-        back=.true.)
+      do k = first, size(elastic%body)
+        if (elastic%body(k) /= elastic%body(first)) exit
         associate (part => elastic%linkage%bodies(k))
-          if (.not. part%bends) then
-            case%body_force(:, k) = case%body_force(:, k) + force
-            case%couple(k) = case%couple(k) + cross(arm_to_place(placed, k, at%place), force)
-            cycle
-          end if
           if (.not. allocated(part%forced)) cycle
           do i = 1, size(part%forced)
             if (part%forced(i)%load /= number) cycle
@@ -193,6 +185,6 @@ contains
           loads%carried(:3, i, effort_case) + carried_force(elastic, placed, i, force)
       end do
     end associate
-  end subroutine add_force
+  end subroutine add_at_places
 
 end module part_efforts

@@ -8,12 +8,12 @@
 module part_forces
   use axial_forces, only: distributed_unit_forces, lump_functions, most_lump_functions
   use border_loads, only: border_work, own_work
-  use border_rows, only: add_stretch, damper_rows, spring_way
+  use border_rows, only: damper_rows
   use border_unknowns, only: border_unknowns_t
   use carried_bodies, only: add_carried_stiffness, carried_work
   use dense_factor, only: dense_factor_t, factorize, solve
-  use drive_rates, only: find_drive_rates, own_drive_compliance, own_drive_rates, &
-    own_turns_by_couples, slide_of, turn_of_end
+  use drive_rates, only: drive_rates_of, own_drive_compliance, own_drive_rates, &
+    own_turns_by_couples
   use elastic_linkages, only: spring_t
   use elastic_positions, only: elastic_position_t
   use kinds, only: wp
@@ -25,6 +25,7 @@ module part_forces
   use pin_displacements, only: chords_t
   use poses, only: pose_t
   use rigid_part_loads, only: turning_joints, turning_load
+  use terminal_work, only: line_direction, turn_of_end, way_between, work_between
   implicit none (type, external)
   private
 
@@ -48,9 +49,8 @@ module part_forces
 contains
 
   !> The forces at a position.
-  pure subroutine find_part_forces(linkage, at, border, chords, loaded)
-    type(linkage_t), intent(in) :: linkage          !! that moves: its drives
-    type(elastic_position_t), intent(in) :: at      !! of it, with parts that are placed
+  pure subroutine find_part_forces(at, border, chords, loaded)
+    type(elastic_position_t), intent(in) :: at      !! with parts that are placed
     type(border_t), intent(in) :: border            !! with violations of constraints
     type(chords_t), intent(in) :: chords            !! of the border unknowns
     type(loaded_parts_t), intent(inout) :: loaded   !! with loads; gets their forces
@@ -59,19 +59,17 @@ contains
     type(own_rates_t) :: on_own(size(at%model%links))
     real(wp), allocatable :: on_drives(:, :), drives_of_constraints(:, :), held(:), &
       compliance(:, :)
-    integer, allocatable :: free(:)
     real(wp) :: work(size(chords%turn, 1)), weighted(size(border%rows%weight)), &
       lambda(at%numbers%constraints), constant
     integer :: i, n
 
     n = size(chords%turn, 1) - chords%free
-    call make_room(linkage, at, loaded%loads, n + chords%free, loaded%forces)
-    free = pack([(i, i=1, size(linkage%drives))], linkage%drives%is_free)
+    call make_room(at, loaded%loads, n + chords%free, loaded%forces)
     if (.not. any(loaded%loads%unit%occurs)) return
     of_constraints = chords_of(at, border%basis%violation, border%basis%weighted_violation)
-    call find_drive_rates(linkage, at, chords, on_drives)
-    call find_drive_rates(linkage, at, of_constraints, drives_of_constraints)
-    call find_own_drive_rates(linkage, at, on_own, compliance)
+    on_drives = drive_rates_of(at, chords)
+    drives_of_constraints = drive_rates_of(at, of_constraints)
+    call find_own_drive_rates(at, on_own, compliance)
     do i = 1, case_count
       if (.not. loaded%loads%unit%occurs(i)) cycle
       associate (case => loaded%loads%unit%of_case(i))
@@ -86,8 +84,8 @@ contains
         loaded%forces%work(:n, i) = work(:n)
         if (size(on_drives, 1) > 0) then
           held = held_by_drives(on_drives(:, :n), on_drives(:, n + 1:), work, compliance, &
-            own_turns(linkage, at, case, loaded%loads%end_couple(:, :, i), on_own))
-          loaded%forces%drive(free, i) = held
+            own_turns(at, case, loaded%loads%end_couple(:, :, i), on_own))
+          loaded%forces%drive(at%elastic%free_drives, i) = held
           work = work + matmul(held, on_drives)
           lambda = lambda + matmul(held, drives_of_constraints)
         end if
@@ -97,9 +95,9 @@ contains
         call take_forces(at, weighted, lambda, i, loaded)
         constant = merge(1.0_wp, 0.0_wp, i == constant_case)
         call add_guides(at, chords, loaded%forces%guide(:, i), loaded%forces%second_order(:, :, i))
-        call add_lines(at, border, at%elastic%springs, loaded%forces%spring(:, i), &
+        call add_lines(at, chords, at%elastic%springs, loaded%forces%spring(:, i), &
           loaded%forces%second_order(:, :, i))
-        call add_lines(at, border, at%elastic%tensions, constant*loaded%loads%tension, &
+        call add_lines(at, chords, at%elastic%tensions, constant*loaded%loads%tension, &
           loaded%forces%second_order(:, :, i))
         call add_carried_stiffness(at%elastic, chords, loaded%loads%carried(:, :, i), &
           loaded%forces%second_order(:, :, i))
@@ -132,9 +130,8 @@ contains
   end subroutine find_dyad_forces
 
   !> Forces of no loads.
-  pure subroutine make_room(linkage, at, loads, border, forces)
-    type(linkage_t), intent(in) :: linkage          !! that moves: its drives
-    type(elastic_position_t), intent(in) :: at      !! of it
+  pure subroutine make_room(at, loads, border, forces)
+    type(elastic_position_t), intent(in) :: at
     type(part_loads_t), intent(in) :: loads         !! which of them occur
     integer, intent(in) :: border                   !! number of unknowns of a border
     type(part_forces_t), intent(out) :: forces
@@ -144,7 +141,8 @@ contains
       border, case_count), forces%guide(size(at%elastic%contact), case_count), &
       forces%spring(size(at%elastic%springs), case_count), forces%border(border, case_count), &
       forces%work(border, case_count), forces%weighted(size(at%numbers%rows), case_count), &
-      forces%constraint(at%numbers%constraints, case_count), forces%drive(size(linkage%drives), &
+      forces%constraint(at%numbers%constraints, case_count), &
+      forces%drive(size(at%elastic%driven, 2), &
       case_count), source=0.0_wp)
   end subroutine make_room
 
@@ -235,7 +233,7 @@ contains
           end if
         end do
         call add_guides(at, chords, unit%guide(:, 1), forces%second_order(:, :, i))
-        call add_lines(at, border, springs, pull, forces%second_order(:, :, i))
+        call add_lines(at, chords, springs, pull, forces%second_order(:, :, i))
       end associate
     end do
   end subroutine find_pull_forces
@@ -304,13 +302,14 @@ contains
     real(wp), intent(in) :: guide(:)   !! (sliders) [N]
     real(wp), intent(inout) :: stiffness(:, :)
 
-    real(wp) :: along(size(stiffness, 1)), turn(size(stiffness, 1))
+    real(wp), dimension(size(stiffness, 1)) :: along, turn
     integer :: i, j
 
     do i = 1, size(guide)
-      if (at%elastic%guide_rotation(i) <= 0) cycle
-      turn = chords%rotation(at%elastic%guide_rotation(i), :)
-      along = slide_of(at%elastic, at%pose, chords, i)
+      if (at%elastic%sliding(1, i)%rotation <= 0) cycle
+      turn = chords%rotation(at%elastic%sliding(1, i)%rotation, :)
+      along = work_between(at, chords, at%elastic%sliding(:, i), line_direction(at%elastic, &
+        at%pose, i), 0.0_wp)
       do j = 1, size(turn)
         stiffness(:, j) = stiffness(:, j) + guide(i)*(along*turn(j) + turn*along(j))
       end do
@@ -318,23 +317,23 @@ contains
   end subroutine add_guides
 
   !> What pulls along lines that turn with the linkage add: `½ (T/l) (n·ΔU)²`.
-  pure subroutine add_lines(at, border, springs, pull, stiffness)
+  pure subroutine add_lines(at, chords, springs, pull, stiffness)
     type(elastic_position_t), intent(in) :: at
-    type(border_t), intent(in) :: border
+    type(chords_t), intent(in) :: chords
     type(spring_t), intent(in) :: springs(:)
     real(wp), intent(in) :: pull(:)    !! (springs) [N] or [N m]
     real(wp), intent(inout) :: stiffness(:, :)
 
-    real(wp) :: across(size(stiffness, 1)), way(2), row(at%numbers%unknowns)
+    real(wp) :: across(size(stiffness, 1)), way(2)
     integer :: i, j
 
     do i = 1, size(pull)
       if (springs(i)%turns) cycle
-      way = spring_way(at%elastic, at%pose, springs(i))
-      if (.not. norm2(way) > 0.0_wp) cycle
-      row = 0.0_wp
-      call add_stretch(at, springs(i), normal_to(way)/norm2(way), row)
-      across = matmul(row, border%basis%unknown)
+      associate (ends => at%elastic%load_ends(:, springs(i)%load))
+        way = way_between(at%pose, ends)
+        if (.not. norm2(way) > 0.0_wp) cycle
+        across = work_between(at, chords, ends, normal_to(way)/norm2(way), 0.0_wp)
+      end associate
       do j = 1, size(across)
         stiffness(:, j) = stiffness(:, j) + pull(i)/norm2(way)*across*across(j)
       end do
@@ -342,32 +341,30 @@ contains
   end subroutine add_lines
 
   !> What own modes of all parts do to the joints of free drives, and how they yield to these.
-  pure subroutine find_own_drive_rates(linkage, at, on_own, compliance)
-    type(linkage_t), intent(in) :: linkage
+  pure subroutine find_own_drive_rates(at, on_own, compliance)
     type(elastic_position_t), intent(in) :: at
     type(own_rates_t), intent(out) :: on_own(:) !! (parts) empty of rigid ones
     real(wp), allocatable, intent(out) :: compliance(:, :)
 
     integer :: k, d
 
-    d = count(linkage%drives%is_free)
+    d = size(at%elastic%free_drives)
     allocate (compliance(d, d), source=0.0_wp)
     if (d == 0) return
     do k = 1, size(at%model%links)
       if (.not. at%model%links(k)%bends) cycle
-      on_own(k)%rate = own_drive_rates(linkage, at, k)
-      compliance = compliance + own_drive_compliance(linkage, at%elastic, k)
+      on_own(k)%rate = own_drive_rates(at, k)
+      compliance = compliance + own_drive_compliance(at%elastic, k)
     end do
   end subroutine find_own_drive_rates
 
   !> Turns of the joints of free drives by own modes under the loads.
-  pure function own_turns(linkage, at, case, couple, on_own) result(turns)
-    type(linkage_t), intent(in) :: linkage
+  pure function own_turns(at, case, couple, on_own) result(turns)
     type(elastic_position_t), intent(in) :: at
     type(load_case_t), intent(in) :: case
     real(wp), intent(in) :: couple(:, :) !! (2, parts) on the ends of those that bend [N m]
     type(own_rates_t), intent(in) :: on_own(:)
-    real(wp) :: turns(count(linkage%drives%is_free))
+    real(wp) :: turns(size(at%elastic%free_drives))
 
     integer :: k
 
@@ -375,7 +372,7 @@ contains
     do k = 1, size(at%model%links)
       if (.not. allocated(on_own(k)%rate)) cycle
       turns = turns + matmul(on_own(k)%rate, own_work(at%elastic%linkage, at%model%links(k), k, &
-        at%pose, case)) + own_turns_by_couples(linkage, at%elastic, k, couple(:, k))
+        at%pose, case)) + own_turns_by_couples(at%elastic, k, couple(:, k))
     end do
   end function own_turns
 

@@ -116,8 +116,9 @@ contains
       of_parts%carried(:, :, i) = carried_loads(at%elastic, at%pose, of_parts%unit%of_case(i))
       call add_short_pieces(at%elastic, of_parts%unit%of_case(i), of_parts%moment(:, i))
     end do
-    call turn_ends(at%elastic%springs, of_parts%pull, of_parts%moment(:, constant_case))
-    call turn_ends(at%elastic%tensions, of_parts%tension, of_parts%moment(:, constant_case))
+    call turn_ends(at%elastic, at%elastic%springs, of_parts%pull, of_parts%moment(:, constant_case))
+    call turn_ends(at%elastic, at%elastic%tensions, of_parts%tension, of_parts%moment(:, &
+      constant_case))
   end subroutine find_part_loads
 
   !> The highest number of a force at a place of a part, or of a load of the linkage.
@@ -137,7 +138,8 @@ contains
   end function highest_force
 
   !> Adds what springs that turn do to the ends that they hold.
-  pure subroutine turn_ends(springs, pull, moment)
+  pure subroutine turn_ends(elastic, springs, pull, moment)
+    type(elastic_linkage_t), intent(in) :: elastic
     type(spring_t), intent(in) :: springs(:)
     real(wp), intent(in) :: pull(:)      !! (springs) [N] or [N m]
     real(wp), intent(inout) :: moment(:) !! (rotations)
@@ -147,7 +149,7 @@ contains
     do i = 1, size(springs)
       if (.not. springs(i)%turns) cycle
       do k = 1, 2
-        associate (rotation => springs(i)%rotation(k))
+        associate (rotation => elastic%load_ends(k, springs(i)%load)%rotation)
           if (rotation > 0) moment(rotation) = moment(rotation) + merge(pull(i), -pull(i), k == 1)
         end associate
       end do

@@ -7,13 +7,12 @@ module part_reactions
   use acceleration_fields, only: acceleration_field_t
   use border_loads, only: border_work
   use border_rows, only: part_rows
-  use drive_rates, only: end_at_joint, turn_of_end
-  use elastic_linkages, only: elastic_linkage_t
+  use drive_rates, only: hinged_ends
   use elastic_positions, only: elastic_position_t
   use inertia_loads, only: load_t
   use joint_forces, only: joint_forces_t
   use kinds, only: wp
-  use linkages, only: drive_of_angle, linkage_t, normal_to
+  use linkages, only: linkage_t, normal_to
   use load_cases, only: load_case_t
   use part_couples, only: find_part_couples
   use part_force_types, only: loaded_parts_t
@@ -21,6 +20,7 @@ module part_reactions
   use pose_types, only: pins_of_body
   use poses, only: pose_t
   use rigid_part_loads, only: load_on_rigid
+  use terminal_work, only: turn_of_end
   implicit none (type, external)
   private
 
@@ -46,7 +46,7 @@ contains
       on_part(:, k) = 0.0_wp
       if (at%elastic%linkage%bodies(k)%bends) on_part(:, k) = on_ends(at, k, &
         loaded%loads%unit%of_case(case), loaded%forces%weighted(:, case), &
-        torques_of_drives(linkage, at%elastic, k, loaded%forces%drive(:, case)) + &
+        matmul(loaded%forces%drive(at%elastic%free_drives, case), hinged_ends(at%elastic, k)) + &
         merge(loaded%loads%end_couple(:, k, case), 0.0_wp, at%elastic%rotation(:, k) == 0))
     end do
     further = 0
@@ -64,8 +64,8 @@ contains
       further = further + size(linkage%bodies(b)%further)
     end do
     if (allocated(joints%guide)) joints%guide = loaded%forces%guide(:, case)
-    if (allocated(joints%couple)) call find_part_couples(linkage, at, loaded, case, on_part, &
-      joints, given, open)
+    if (allocated(joints%couple)) call find_part_couples(at, loaded, case, on_part, joints, &
+      given, open)
   end subroutine take_part_reactions
 
   !> Forces on both ends of a part that bends, and moments: as the displacements of `part_rows`.
@@ -106,31 +106,6 @@ contains
         at%model%links(part), chords%turn(:, 1), chords%across(3:, :, 1), i)
     end do
   end function on_ends
-
-  !> Torques of free drives on the hinged ends of a part; those of ends that are held act on their
-  !! rotations.
-  pure function torques_of_drives(linkage, elastic, part, drive) result(torque)
-    type(linkage_t), intent(in) :: linkage
-    type(elastic_linkage_t), intent(in) :: elastic
-    integer, intent(in) :: part
-    real(wp), intent(in) :: drive(:) !! (drives) [N m] or [N]
-    real(wp) :: torque(2)
-
-    integer :: i, k, number, links(2)
-
-    torque = 0.0_wp
-    do i = 1, size(drive)
-      if (linkage%drives(i)%kind /= drive_of_angle .or. .not. linkage%drives(i)%is_free) cycle
-      links = [linkage%drives(i)%body, linkage%drives(i)%against]
-      do k = 1, 2
-        if (elastic%body(part) /= links(k)) cycle
-        number = end_at_joint(linkage, elastic, part, links(3 - k))
-        if (number == 0) cycle
-        if (elastic%rotation(number, part) == 0) torque(number) = torque(number) + &
-          merge(1.0_wp, -1.0_wp, k == 1)*drive(i)
-      end do
-    end do
-  end function torques_of_drives
 
   !> What the displacements of `part_rows` do to the part.
   pure function own_chords(rows, axis, length) result(chords)

@@ -1,14 +1,15 @@
 !> What acts on a rigid link of a vibrating linkage: inertia, forces at its points and at places,
 !! blocks that slide along it with their drives, springs.
 module rigid_part_loads
-  use border_rows, only: line_direction, spring_way
   use elastic_linkages, only: spring_t
   use elastic_positions, only: elastic_position_t
+  use elastic_terminals, only: elastic_terminal_t
   use inertia_loads, only: distributed_load, load_t
   use kinds, only: wp
   use linkages, only: cross, normal_to, turned
   use load_cases, only: constant_case, load_case_t
   use part_force_types, only: loaded_parts_t, part_forces_t
+  use terminal_work, only: line_direction, terminal_arm, way_between
   implicit none (type, external)
   private
 
@@ -115,31 +116,43 @@ contains
 
     type(placed_force_t) :: room(size(at%elastic%linkage%sliders) + 2*size(springs))
     real(wp) :: way(2)
-    integer :: i, k, n
+    integer :: i, n
 
     n = 0
-    do i = 1, size(at%elastic%linkage%sliders)
-      if (at%elastic%linkage%sliders(i)%body /= at%elastic%body(part)) cycle
-      n = n + 1
-      room(n)%force = -force_on_block(at, forces, case, i)
-      room(n)%arm = at%pose%pin(:, at%elastic%linkage%sliders(i)%pin) - at%pose%pin(:, &
-        at%elastic%linkage%bodies(part)%first_pin)
+    do i = 1, size(at%elastic%sliding, 2)
+      call put_between(at, at%elastic%sliding(:, i), force_on_block(at, forces, case, i), part, &
+        room, n)
     end do
     do i = 1, size(springs)
       if (springs(i)%turns) cycle
-      way = spring_way(at%elastic, at%pose, springs(i))
-      if (norm2(way) > 0.0_wp) way = way/norm2(way)
-      do k = 1, 2
-        associate (held => at%elastic%linkage%loads(springs(i)%load)%along%at(k))
-          if (held%pin > 0 .or. held%body /= at%elastic%body(part)) cycle
-          n = n + 1
-          room(n)%force = merge(tension(i), -tension(i), k == 1)*way
-          room(n)%arm = turned(held%place, at%pose%direction(:, part))
-        end associate
-      end do
+      associate (ends => at%elastic%load_ends(:, springs(i)%load))
+        way = way_between(at%pose, ends)
+        if (norm2(way) > 0.0_wp) way = way/norm2(way)
+        call put_between(at, ends, -tension(i)*way, part, room, n)
+      end associate
     end do
     others = room(:n)
   end function forces_of_others
+
+  !> Adds a force on the second of two terminals, and the opposite on the first, if they are on a
+  !! rigid link.
+  pure subroutine put_between(at, ends, force, part, others, n)
+    type(elastic_position_t), intent(in) :: at
+    type(elastic_terminal_t), intent(in) :: ends(2)
+    real(wp), intent(in) :: force(2)               !! [N]
+    integer, intent(in) :: part                    !! number of the rigid link
+    type(placed_force_t), intent(inout) :: others(:)
+    integer, intent(inout) :: n                    !! how many there are
+
+    integer :: k
+
+    do k = 1, 2
+      if (.not. ends(k)%is_rigid .or. ends(k)%part /= part) cycle
+      n = n + 1
+      others(n)%force = merge(-force, force, k == 1)
+      others(n)%arm = terminal_arm(at%pose, ends(k))
+    end do
+  end subroutine put_between
 
   !> Force of a guide on its block, with that of a drive that moves the block [N].
   pure function force_on_block(at, forces, case, slider) result(force)

@@ -1,185 +1,77 @@
-!> How displacements of a linkage move its drives and slides.
+!> How displacements of a linkage move its free drives.
 module drive_rates
-  use border_rows, only: line_direction
-  use deformation_places, only: rotation_row
   use elastic_linkages, only: elastic_linkage_t
   use elastic_positions, only: elastic_position_t
   use kinds, only: wp
-  use link_modes, only: link_modes_t
-  use linkages, only: drive_of_angle, drive_of_slider, linkage_t, normal_to
+  use linkages, only: drive_of_angle, drive_of_slider
   use pin_displacements, only: chords_t
-  use pose_types, only: pins_of_body
-  use poses, only: pose_t
+  use terminal_work, only: end_slopes, find_end, line_direction, work_between
   implicit none (type, external)
   private
 
-  public :: find_drive_rates, own_drive_rates, own_drive_compliance, own_turns_by_couples, &
-    slide_of, turn_of_end, end_at_joint, is_joint
+  public :: drive_rates_of, own_drive_rates, own_drive_compliance, own_turns_by_couples, hinged_ends
 
 contains
 
   !> Motion of every free drive in some displacements.
-  pure subroutine find_drive_rates(linkage, at, chords, rate)
-    type(linkage_t), intent(in) :: linkage
+  pure function drive_rates_of(at, chords) result(rate)
     type(elastic_position_t), intent(in) :: at
     type(chords_t), intent(in) :: chords
-    real(wp), allocatable, intent(out) :: rate(:, :) !! (free drives, displacements)
+    real(wp), allocatable :: rate(:, :) !! (free drives, displacements)
 
-    integer, allocatable :: free(:)
-    integer :: i
+    integer :: i, number
 
-    free = pack([(i, i=1, size(linkage%drives))], linkage%drives%is_free)
-    allocate (rate(size(free), size(chords%turn, 1)))
-    do i = 1, size(free)
-      associate (drive => linkage%drives(free(i)))
-        rate(i, :) = 0.0_wp
+    allocate (rate(size(at%elastic%free_drives), size(chords%turn, 1)), source=0.0_wp)
+    do i = 1, size(rate, 1)
+      number = at%elastic%free_drives(i)
+      associate (drive => at%elastic%linkage%drives(number), ends => at%elastic%driven(:, number))
         if (drive%kind == drive_of_angle) then
-          rate(i, :) = turn_at_joint(linkage, at, chords, drive%body, drive%against)
-          if (drive%against > 0) rate(i, :) = rate(i, :) - turn_at_joint(linkage, at, chords, &
-            drive%against, drive%body)
+          rate(i, :) = work_between(at, chords, ends, [0.0_wp, 0.0_wp], 1.0_wp)
         else if (drive%kind == drive_of_slider) then
-          rate(i, :) = slide_of(at%elastic, at%pose, chords, drive%slider)
+          rate(i, :) = work_between(at, chords, ends, line_direction(at%elastic, at%pose, &
+            drive%slider), 0.0_wp)
         end if
       end associate
     end do
-  end subroutine find_drive_rates
-
-  !> Rotation of the end of a link where it is joined to another, or to the ground.
-  pure function turn_at_joint(linkage, at, chords, body, other) result(turn)
-    type(linkage_t), intent(in) :: linkage
-    type(elastic_position_t), intent(in) :: at
-    type(chords_t), intent(in) :: chords
-    integer, intent(in) :: body, other
-    real(wp) :: turn(size(chords%turn, 1))
-
-    integer :: part, end
-
-    call find_joint_end(linkage, at%elastic, body, other, part, end)
-    if (at%elastic%rotation(end, part) > 0) then
-      turn = chords%rotation(at%elastic%rotation(end, part), :)
-    else if (at%elastic%linkage%bodies(part)%bends) then
-      turn = turn_of_end(at%model%links(part), chords%turn(:, part), chords%across(3:, :, part), &
-        end)
-    else
-      turn = chords%turn(:, part)
-    end if
-  end function turn_at_joint
-
-  !> The part of a link that is joined to another, or to the ground, and its end there.
-  pure subroutine find_joint_end(linkage, elastic, body, other, part, end)
-    type(linkage_t), intent(in) :: linkage
-    type(elastic_linkage_t), intent(in) :: elastic
-    integer, intent(in) :: body, other
-    integer, intent(out) :: part, end
-
-    do part = findloc(elastic%body, body, dim=1), findloc(elastic%body, body, dim=1, back=.true.)
-      end = end_at_joint(linkage, elastic, part, other)
-      if (end > 0) return
-    end do
-    part = findloc(elastic%body, body, dim=1)
-    end = 1
-  end subroutine find_joint_end
-
-  !> The end of a part where its link is joined to another one, or to the ground.
-  pure function end_at_joint(linkage, elastic, part, other) result(number)
-    type(linkage_t), intent(in) :: linkage         !! that moves: pins of its links
-    type(elastic_linkage_t), intent(in) :: elastic !! its parts
-    integer, intent(in) :: part                    !! number
-    integer, intent(in) :: other                   !! number of the link; 0: the ground
-    integer :: number                              !! 1: the first, 2: the last; 0: none
-
-    number = 0
-    if (is_joint(linkage, elastic%linkage%bodies(part)%last_pin, other)) number = 2
-    if (is_joint(linkage, elastic%linkage%bodies(part)%first_pin, other)) number = 1
-  end function end_at_joint
-
-  !> Whether a point is a pin of a link, or of the ground.
-  pure function is_joint(linkage, point, body)
-    type(linkage_t), intent(in) :: linkage !! that moves: pins of its links
-    integer, intent(in) :: point           !! number; those beyond the pins are none
-    integer, intent(in) :: body            !! number of the link; 0: the ground
-    logical :: is_joint
-
-    is_joint = .false.
-    if (point > size(linkage%is_ground)) return
-    if (body == 0) then
-      is_joint = linkage%is_ground(point)
-    else
-      is_joint = any(pins_of_body(linkage%bodies(body)) == point)
-    end if
-  end function is_joint
-
-  !> Rotations of an end of a part that bends against its chord: of curves, then own modes.
-  pure function end_slopes(link, end) result(slopes)
-    type(link_modes_t), intent(in) :: link
-    integer, intent(in) :: end !! 1: the first, 2: the last
-    real(wp) :: slopes(link%curves + link%modes)
-
-    real(wp) :: row(link%bending_shapes%unknowns)
-
-    row = rotation_row(link%bending_shapes, real(end - 1, wp))
-    slopes = matmul(row(:size(link%bending, 1)), link%bending)
-  end function end_slopes
-
-  !> Rotations of an end of a part that bends by its own modes.
-  pure function own_slopes(link, number) result(slopes)
-    type(link_modes_t), intent(in) :: link !! of the part
-    integer, intent(in) :: number          !! 1: the first end, 2: the last
-    real(wp) :: slopes(link%modes)         !! (own modes)
-
-    real(wp) :: all_slopes(link%curves + link%modes)
-
-    all_slopes = end_slopes(link, number)
-    slopes = all_slopes(link%curves + 1:)
-  end function own_slopes
+  end function drive_rates_of
 
   !> Rotations at the joints of free drives that are due to own modes of one part.
-  pure function own_drive_rates(linkage, at, part) result(rate)
-    type(linkage_t), intent(in) :: linkage           !! that moves: its drives
-    type(elastic_position_t), intent(in) :: at       !! of it
-    integer, intent(in) :: part                      !! that bends
-    real(wp) :: rate(count(linkage%drives%is_free), at%model%links(part)%modes) !! (free drives,
-                                                     !! own modes)
+  pure function own_drive_rates(at, part) result(rate)
+    type(elastic_position_t), intent(in) :: at
+    integer, intent(in) :: part         !! that bends
+    real(wp), allocatable :: rate(:, :) !! (free drives, own modes)
 
-    real(wp) :: sense(size(rate, 1), 2), slopes(at%model%links(part)%modes)
-    integer :: i, end
+    real(wp) :: slopes(2, at%model%links(part)%curves + at%model%links(part)%modes)
+    integer :: end
 
-    sense = hinged_ends(linkage, at%elastic, part)
-    rate = 0.0_wp
     do end = 1, 2
-      if (.not. any(abs(sense(:, end)) > 0.0_wp)) cycle
-      slopes = own_slopes(at%model%links(part), end)
-      do i = 1, size(rate, 1)
-        rate(i, :) = rate(i, :) + sense(i, end)*slopes
-      end do
+      slopes(end, :) = end_slopes(at%model%links(part), end)
     end do
+    rate = matmul(hinged_ends(at%elastic, part), slopes(:, at%model%links(part)%curves + 1:))
   end function own_drive_rates
 
   !> How free drives yield to their own torques by own modes of a part, R Rᵀ of all of them, in
   !! closed form.
-  pure function own_drive_compliance(linkage, elastic, part) result(compliance)
-    type(linkage_t), intent(in) :: linkage           !! that moves: its drives
-    type(elastic_linkage_t), intent(in) :: elastic   !! of it, at this position
-    integer, intent(in) :: part                      !! that bends
-    real(wp) :: compliance(count(linkage%drives%is_free), count(linkage%drives%is_free))
+  pure function own_drive_compliance(elastic, part) result(compliance)
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    integer, intent(in) :: part                    !! that bends
+    real(wp), allocatable :: compliance(:, :)
 
-    real(wp) :: sense(size(compliance, 1), 2)
+    real(wp) :: sense(size(elastic%free_drives), 2)
 
-    sense = hinged_ends(linkage, elastic, part)
+    sense = hinged_ends(elastic, part)
     compliance = matmul(matmul(sense, own_flexibility(elastic, part)), transpose(sense))
   end function own_drive_compliance
 
   !> Turns at the joints of free drives by own modes of a part under couples at its hinged ends, in
   !! closed form.
-  pure function own_turns_by_couples(linkage, elastic, part, couple) result(turns)
-    type(linkage_t), intent(in) :: linkage           !! that moves: its drives
-    type(elastic_linkage_t), intent(in) :: elastic   !! of it, at this position
-    integer, intent(in) :: part                      !! that bends
-    real(wp), intent(in) :: couple(2)                !! on its ends [N m]
-    real(wp) :: turns(count(linkage%drives%is_free))
+  pure function own_turns_by_couples(elastic, part, couple) result(turns)
+    type(elastic_linkage_t), intent(in) :: elastic !! at this position
+    integer, intent(in) :: part                    !! that bends
+    real(wp), intent(in) :: couple(2)              !! on its ends [N m]
+    real(wp) :: turns(size(elastic%free_drives))
 
-    turns = matmul(hinged_ends(linkage, elastic, part), matmul(own_flexibility(elastic, part), &
-      couple))
+    turns = matmul(hinged_ends(elastic, part), matmul(own_flexibility(elastic, part), couple))
   end function own_turns_by_couples
 
   !> Turns of the hinged ends of a part under couples there, while its held ends stay.
@@ -211,75 +103,23 @@ contains
   end function own_flexibility
 
   !> With which sense the rotation of the hinged ends of a part is the motion of free drives.
-  pure function hinged_ends(linkage, elastic, part) result(sense)
-    type(linkage_t), intent(in) :: linkage
+  pure function hinged_ends(elastic, part) result(sense)
     type(elastic_linkage_t), intent(in) :: elastic
     integer, intent(in) :: part
-    real(wp) :: sense(count(linkage%drives%is_free), 2) !! (free drives, ends) ±1; 0: not
+    real(wp) :: sense(size(elastic%free_drives), 2) !! (free drives, ends) ±1; 0: not
 
-    integer :: bodies(2), d, i, k, at, end
+    integer :: i, k, at, end
 
     sense = 0.0_wp
-    i = 0
-    do d = 1, size(linkage%drives)
-      associate (drive => linkage%drives(d))
-        if (.not. drive%is_free) cycle
-        i = i + 1
-        if (drive%kind /= drive_of_angle) cycle
-        bodies = [drive%body, drive%against]
-        do k = 1, 2
-          if (bodies(k) == 0) cycle
-          call find_joint_end(linkage, elastic, bodies(k), bodies(3 - k), at, end)
-          if (at /= part .or. elastic%rotation(end, at) /= 0) cycle
-          sense(i, end) = sense(i, end) + merge(1.0_wp, -1.0_wp, k == 1)
-        end do
-      end associate
+    do i = 1, size(sense, 1)
+      do k = 1, 2
+        associate (terminal => elastic%driven(k, elastic%free_drives(i)))
+          if (terminal%part == 0 .or. terminal%rotation /= 0) cycle
+          call find_end(elastic, terminal, at, end)
+          if (at == part) sense(i, end) = sense(i, end) + merge(-1.0_wp, 1.0_wp, k == 1)
+        end associate
+      end do
     end do
   end function hinged_ends
-
-  !> Rotation of a hinged end of a part that bends: that of its chord, and what the curves of the
-  !! other end add.
-  pure function turn_of_end(link, chord, curve, number) result(turn)
-    type(link_modes_t), intent(in) :: link   !! of the part
-    real(wp), intent(in) :: chord(:)         !! (displacements) what they turn its chord
-    real(wp), intent(in) :: curve(:, :)      !! (curves or more, displacements)
-    integer, intent(in) :: number            !! 1: the first end, 2: the last
-    real(wp) :: turn(size(chord))            !! (displacements)
-
-    real(wp) :: slopes(link%curves + link%modes)
-    integer :: i
-
-    turn = chord
-    slopes = end_slopes(link, number)
-    do i = 1, link%curves
-      turn = turn + slopes(i)*curve(i, :)
-    end do
-  end function turn_of_end
-
-  !> Slide of a block along the line of its guide.
-  pure function slide_of(elastic, pose, chords, slider) result(along)
-    type(elastic_linkage_t), intent(in) :: elastic
-    type(pose_t), intent(in) :: pose
-    type(chords_t), intent(in) :: chords
-    integer, intent(in) :: slider
-    real(wp) :: along(size(chords%turn, 1))
-
-    real(wp) :: direction(2)
-    integer :: part
-
-    direction = line_direction(elastic, pose, slider)
-    associate (line => elastic%linkage%sliders(slider))
-      along = matmul(direction, chords%pin(:, line%pin, :))
-      if (elastic%contact(slider) > 0) then
-        along = along - matmul(direction, chords%pin(:, elastic%contact(slider), :))
-      else if (line%body > 0) then
-        part = findloc(elastic%body, line%body, dim=1)
-        associate (first => elastic%linkage%bodies(part)%first_pin)
-          along = along - matmul(direction, chords%pin(:, first, :)) - chords%turn(:, &
-            part)*dot_product(direction, normal_to(pose%pin(:, line%pin) - pose%pin(:, first)))
-        end associate
-      end if
-    end associate
-  end function slide_of
 
 end module drive_rates

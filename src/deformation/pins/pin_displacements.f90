@@ -2,7 +2,8 @@
 ! Border unknowns (elongations of links, rotations of held ends) displace the pins; `chords_t` is
 ! what they do to links. Begin with `find_chords` here, for a crank and dyads; for any linkage with
 ! `elastic_position_t` in `elastic_positions.f90` and `find_border_rows` in `border_rows.f90`. Work
-! of a load case: `border_work` in `border_loads.f90`.
+! of a load case: `border_work` in `border_loads.f90`; of what acts between two terminals, springs,
+! blocks, drives: `terminal_work.f90`.
 ! Not here: deformations between the pins (`src/deformation/links`), the basis of the border at a
 ! position (`src/deformation/parts`).
 

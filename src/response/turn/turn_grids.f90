@@ -339,8 +339,8 @@ contains
     do i = 1, pivot_positions
       call find_pose(structure%linkage, position(i), pose, error)
       if (.not. allocated(error)) call place_parts(structure, grid%model, pose, here, error)
-      if (.not. allocated(error)) call find_part_chords(structure%linkage, &
-        here%elastic_position_t, .false., here%border, chords, error)
+      if (.not. allocated(error)) call find_part_chords(here%elastic_position_t, &
+        .false., here%border, chords, error)
       if (allocated(error)) return
       do b = 1, size(grid%integrals)
         associate (chord => grid%integrals(b)%chord, of_body => grid%integrals(b)%mass)
@@ -692,8 +692,8 @@ contains
     do i = 0, most_turns*pivot_positions - 1
       call find_pose(structure%linkage, position(modulo(i, pivot_positions)), pose, error)
       if (.not. allocated(error)) call place_parts(structure, model, pose, here, error)
-      if (.not. allocated(error)) call find_part_chords(structure%linkage, &
-        here%elastic_position_t, .false., here%border, chords, error)
+      if (.not. allocated(error)) call find_part_chords(here%elastic_position_t, &
+        .false., here%border, chords, error)
       if (allocated(error)) return
       kept = merge(1, kept + 1, here%border%is_new)
       if (kept > pivot_positions) return

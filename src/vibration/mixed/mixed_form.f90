@@ -25,6 +25,7 @@ module mixed_form
   use border_unknowns, only: border_unknowns_t
   use elastic_linkages, only: elastic_linkage_t, spring_t
   use elastic_positions, only: elastic_position_t
+  use elastic_terminals, only: elastic_terminal_t
   use element_matrices, only: elements_t, new_elements
   use elimination_plan, only: elimination_plan_t, new_elimination_plan
   use kinds, only: wp
@@ -156,7 +157,8 @@ contains
             call add_rotation(form, elastic%rotation(2, k), list)
             call append(list, [(form%multipliers + numbers%elongation(k) + i, i=0, n - 1)])
           else
-            call add_rigid(elastic, form, elastic%body(k), list)
+            call add_point(form, part%first_pin, list)
+            call add_rotation(form, elastic%rotation(1, k), list)
             call add_point(form, part%last_pin, list)
             do i = 1, size(part%further)
               call add_point(form, part%further(i)%pin, list)
@@ -174,14 +176,14 @@ contains
         call add_ends(elastic, form, elastic%tensions(element - form%tension), list)
       else if (element <= form%drive) then
         k = element - form%line
-        call add_line(elastic, form, k, list)
-        call add_rotation(form, elastic%guide_rotation(k), list)
+        call add_line(form, elastic%sliding(:, k), list)
+        call add_rotation(form, elastic%sliding(1, k)%rotation, list)
         if (numbers%line_constraint(k) > 0) call append(list, &
           [constraint_of(form, numbers%line_constraint(k))])
       else if (element <= form%point) then
         k = element - form%drive
         if (numbers%drive_constraint(k) > 0) then
-          call add_line(elastic, form, elastic%linkage%drives(k)%slider, list)
+          call add_line(form, elastic%driven(:, k), list)
           call append(list, [constraint_of(form, numbers%drive_constraint(k))])
         end if
       else if (element <= form%carried) then
@@ -246,51 +248,35 @@ contains
 
     integer :: k
 
-    if (spring%turns) then
-      call add_rotation(form, spring%rotation(1), list)
-      call add_rotation(form, spring%rotation(2), list)
-      return
-    end if
     do k = 1, 2
-      associate (at => elastic%linkage%loads(spring%load)%along%at(k))
-        if (at%pin > 0) then
-          call add_point(form, at%pin, list)
+      associate (end => elastic%load_ends(k, spring%load))
+        if (spring%turns) then
+          call add_rotation(form, end%rotation, list)
         else
-          call add_rigid(elastic, form, at%body, list)
+          call add_terminal(form, end, list)
         end if
       end associate
     end do
   end subroutine add_ends
 
-  !> Adds what moves a rigid link.
-  pure subroutine add_rigid(elastic, form, body, list)
-    type(elastic_linkage_t), intent(in) :: elastic
+  !> Adds what moves a place: a point, and the rotation of a rigid link.
+  pure subroutine add_terminal(form, terminal, list)
     type(mixed_form_t), intent(in) :: form
-    integer, intent(in) :: body !! number of the link
+    type(elastic_terminal_t), intent(in) :: terminal
     type(list_t), intent(inout) :: list
 
-    integer :: part
-
-    part = findloc(elastic%body, body, dim=1)
-    call add_point(form, elastic%linkage%bodies(part)%first_pin, list)
-    call add_rotation(form, elastic%rotation(1, part), list)
-  end subroutine add_rigid
+    if (terminal%point > 0) call add_point(form, terminal%point, list)
+    if (terminal%is_rigid) call add_rotation(form, terminal%rotation, list)
+  end subroutine add_terminal
 
   !> Adds what moves a block along its line, or across it.
-  pure subroutine add_line(elastic, form, slider, list)
-    type(elastic_linkage_t), intent(in) :: elastic
+  pure subroutine add_line(form, ends, list)
     type(mixed_form_t), intent(in) :: form
-    integer, intent(in) :: slider
+    type(elastic_terminal_t), intent(in) :: ends(2) !! the guide, then the block
     type(list_t), intent(inout) :: list
 
-    associate (line => elastic%linkage%sliders(slider))
-      call add_point(form, line%pin, list)
-      if (elastic%contact(slider) > 0) then
-        call add_point(form, elastic%contact(slider), list)
-      else if (line%body > 0) then
-        call add_rigid(elastic, form, line%body, list)
-      end if
-    end associate
+    call add_terminal(form, ends(2), list)
+    call add_terminal(form, ends(1), list)
   end subroutine add_line
 
   !> Adds numbers that are not in the list.

@@ -1,8 +1,7 @@
 !> The matrices of the mixed form at a position, element by element, and the work of its loads.
 module mixed_matrices
   use border_loads, only: add_link_work
-  use border_rows, only: add_line, add_rigid, add_spring, add_stretch, line_direction, spring_way
-  use drive_rates, only: turn_of_end
+  use border_rows, only: add_rigid, add_spring
   use elastic_linkages, only: is_piece, spring_t
   use elastic_positions, only: elastic_position_t
   use kinds, only: wp
@@ -12,6 +11,7 @@ module mixed_matrices
   use mixed_form, only: mixed_form_t
   use part_force_types, only: loaded_parts_t, part_loads_t
   use reduced_assembly, only: add_link_mass, add_link_stiffness
+  use terminal_work, only: add_between, line_direction, turn_of_end, way_between
   implicit none (type, external)
   private
 
@@ -134,15 +134,16 @@ contains
     do i = 1, size(at%elastic%contact)
       if (form%numbers%line_constraint(i) == 0) cycle
       k = form%line + i
-      call add_line(at, i, normal_to(line_direction(at%elastic, at%pose, i)), row)
+      call add_between(at, at%elastic%sliding(:, i), normal_to(line_direction(at%elastic, at%pose, &
+        i)), 0.0_wp, row)
       call add_condition(form, k, form%elements%first(k + 1) - 1, 1.0_wp, row, value)
       call clear(form, k, row)
     end do
     do i = 1, size(at%elastic%linkage%drives)
       if (form%numbers%drive_constraint(i) == 0) cycle
       k = form%drive + i
-      call add_line(at, at%elastic%linkage%drives(i)%slider, line_direction(at%elastic, at%pose, &
-        at%elastic%linkage%drives(i)%slider), row)
+      call add_between(at, at%elastic%driven(:, i), line_direction(at%elastic, at%pose, &
+        at%elastic%linkage%drives(i)%slider), 0.0_wp, row)
       call add_condition(form, k, form%elements%first(k + 1) - 1, 1.0_wp, row, value)
       call clear(form, k, row)
     end do
@@ -424,10 +425,11 @@ contains
     row = 0.0_wp
     turn = 0.0_wp
     do i = 1, size(at%elastic%contact)
-      if (at%elastic%guide_rotation(i) <= 0) cycle
+      if (at%elastic%sliding(1, i)%rotation <= 0) cycle
       k = form%line + i
-      call add_line(at, i, line_direction(at%elastic, at%pose, i), row)
-      turn(form%numbers%rotation(at%elastic%guide_rotation(i))) = 1.0_wp/form%numbers%size_of
+      call add_between(at, at%elastic%sliding(:, i), line_direction(at%elastic, at%pose, i), &
+        0.0_wp, row)
+      turn(form%numbers%rotation(at%elastic%sliding(1, i)%rotation)) = 1.0_wp/form%numbers%size_of
       call add_product(form, k, loaded%forces%guide(i, case), row, turn, value)
       call clear(form, k, row)
       call clear(form, k, turn)
@@ -460,9 +462,11 @@ contains
       real(wp) :: way(2)
 
       if (spring%turns) return
-      way = spring_way(at%elastic, at%pose, spring)
-      if (.not. norm2(way) > 0.0_wp) return
-      call add_stretch(at, spring, normal_to(way)/norm2(way), row)
+      associate (ends => at%elastic%load_ends(:, spring%load))
+        way = way_between(at%pose, ends)
+        if (.not. norm2(way) > 0.0_wp) return
+        call add_between(at, ends, normal_to(way)/norm2(way), 0.0_wp, row)
+      end associate
       call add_product(form, element, 0.5_wp*pull/norm2(way), row, row, value)
       call clear(form, element, row)
     end subroutine add_pull

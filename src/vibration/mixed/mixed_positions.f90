@@ -9,7 +9,6 @@ module mixed_positions
   use indefinite_factor, only: factorize, solve
   use kinds, only: wp
   use link_modes, only: link_modes_t
-  use linkages, only: linkage_t
   use load_cases, only: case_count
   use mixed_form, only: mixed_form_t, new_mixed_form, place_elements
   use mixed_matrices, only: add_mixed_geometric, assemble_mixed_mass, assemble_mixed_stiffness, &
@@ -87,8 +86,7 @@ contains
   end subroutine hold
 
   !> The forces of all load cases, and how the linkage yields to them.
-  pure subroutine find_mixed_forces(linkage, at, mixed, loaded, solution)
-    type(linkage_t), intent(in) :: linkage          !! that moves: its drives
+  pure subroutine find_mixed_forces(at, mixed, loaded, solution)
     type(elastic_position_t), intent(in) :: at      !! of it, with parts that are placed
     type(mixed_position_t), intent(in) :: mixed     !! with the factor of `hold`
     type(loaded_parts_t), intent(inout) :: loaded   !! with loads; gets their forces
@@ -97,7 +95,7 @@ contains
     real(wp) :: rest(mixed%form%unknowns), product(mixed%form%unknowns)
     integer :: i, n
 
-    call make_room(linkage, at, loaded%loads, case_count, loaded%forces)
+    call make_room(at, loaded%loads, case_count, loaded%forces)
     associate (form => mixed%form)
       allocate (solution(form%unknowns, case_count), source=0.0_wp)
       n = form%multipliers + size(form%numbers%rows)
