@@ -15,9 +15,10 @@ run: all
 	$(need_deck)
 	$(program) -- "$$DECK"
 
-# FORMAT=svg, SIZE=1200x800, TITLES=no, ERRORS=yes: what flexmech-plot has options for.
+# FORMAT=svg, SIZE=1200x800, ONLY=campbell, STYLE=FILE, OVERLAY=FILE:X:Y, TITLES=no, ERRORS=yes: what flexmech-plot has options for.
 yes_or_no = @case $$$(1) in ''|yes|no) ;; *) printf 'make: $(1)=%s: yes or no\n' "$$$(1)" >&2; exit 2 ;; esac
 figure_options = $${FORMAT:+--format "$$FORMAT"} $${SIZE:+--size "$$SIZE"} $$([ "$$TITLES" != no ] || echo --no-titles) \
+                 $${ONLY:+--only "$$ONLY"} $${STYLE:+--style "$$STYLE"} $${OVERLAY:+--overlay "$$OVERLAY"} \
                  $$([ "$$ERRORS" != yes ] || echo --errors)
 draw = FLEXMECH_PLOT=make sh plots/draw_figures.sh
 # What the program has written of the deck: its name without folder and ending.

@@ -106,8 +106,8 @@ while [ $# -gt 0 ]; do
     esac
     shift
 done
-# Typed at make, options have other names.
-[ "$command" = make ] && format_option=FORMAT= && size_option=SIZE= || { format_option='--format '; size_option='--size '; }
+# typed OPTION: as it was, which at make has another name.
+typed() { [ "$command" = make ] && printf '%s=' "$1" | tr a-z A-Z || printf -- '--%s ' "$1"; }
 for folder in "$@"; do
     case $ended${folder%%=*} in
         --animate | --each | --errors | --no-titles | --format | --only | --overlay | --size | --style | --help | --version)
@@ -115,7 +115,7 @@ for folder in "$@"; do
     esac
 done
 [ -z "$format" ] || printf '%s\n' "$format" | awk 'NR > 1 || !/^(png|svg|pdf)(,(png|svg|pdf))*$/ { exit other = 1 } END { exit other }' ||
-    misused "$format_option$format: png, svg or pdf, or several of them with commas between"
+    misused "$(typed format)$format: png, svg or pdf, or several of them with commas between"
 # Figures by their names without speed, parameter and number; those that figures.txt has not are named here.
 known_figures() {
     {
@@ -128,16 +128,12 @@ settings="figure_format = '$format'; figure_titles = $([ $titles = no ]; echo $?
 if [ -n "$size" ]; then
     set_size=$(size_words "$size")
     [ -n "$set_size" ] ||
-        misused "$size_option$size: WIDTHxHEIGHT of 150 to 10000 pixels or 40 to 2000 mm each, such as 1200x800 or 160x100mm"
+        misused "$(typed size)$size: WIDTHxHEIGHT of 150 to 10000 pixels or 40 to 2000 mm each, such as 1200x800 or 160x100mm"
     settings="$settings; $(echo "$set_size" | awk '{ printf "figure_width = %d; figure_height = %d; figure_unit = \"%s\"", $1, $2, $3 }')"
 fi
 if [ $figures = animations ]; then
     [ -z "$format$size$only$overlays" ] && [ $errors = no ] && [ $each = no ] ||
         misused '--animate takes no --format, --size, --errors, --each, --only or --overlay: an animation is a GIF of fixed size'
-fi
-if [ "$wanted" = --help ]; then
-    help
-    exit
 fi
 
 script=$0
@@ -151,7 +147,7 @@ done
 PLOTS=$(CDPATH='' cd -- "$(dirname -- "$script")" && pwd) || exit 1
 export PLOTS
 for one in $(printf '%s' "$only" | tr ', ' '\n\n'); do
-    known_figures | grep -qxF -e "$one" || misused "--only $one: expected one of $(known_figures | paste -s -d' ' -)"
+    known_figures | grep -qxF -e "$one" || misused "$(typed only)$one: expected one of $(known_figures | paste -s -d' ' -)"
 done
 
 # style_fault FILE: what gnuplot says to it.
@@ -164,10 +160,10 @@ absolute() { case $1 in /*) printf '%s' "$1" ;; *) printf '%s/%s' "$(pwd)" "$1" 
 # A text as gnuplot reads it, for awk.
 quoting=$(cat "$PLOTS/quoted.awk")
 if [ -n "$style" ]; then
-    [ -f "$style" ] && [ -r "$style" ] || misused "--style $style: no such file; expected one with commands of gnuplot"
+    [ -f "$style" ] && [ -r "$style" ] || misused "$(typed style)$style: no such file; expected one with commands of gnuplot"
     style=$(absolute "$style")
     ! command -v gnuplot > /dev/null || fault=$(style_fault "$style")
-    [ -z "${fault-}" ] || misused "--style $style: gnuplot says: $fault"
+    [ -z "${fault-}" ] || misused "$(typed style)$style: gnuplot says: $fault"
     settings="$settings; figure_style = $(FILE=$style awk "$quoting"'BEGIN { print quoted(ENVIRON["FILE"]) }')"
 fi
 
@@ -189,17 +185,16 @@ if [ "$wanted" = --version ]; then
     printf '%s %s\n' "$command" "${version#flexmech }"
     exit
 fi
-[ $# -gt 0 ] || misused 'the folder with the tables of a deck is missing'
 # Points to lay over: the file, two columns behind colons, and what overlay.awk makes of them, with its names and units.
 check_overlay() {
     y=${1##*:}
     rest=${1%:*}
     points=${rest%:*}
     [ "$rest" != "$1" ] && [ "$points" != "$rest" ] && [ -n "$y" ] && [ -n "${rest##*:}" ] ||
-        misused "--overlay $1: expected FILE:X:Y, a file and two of its columns by number or name"
-    [ -f "$points" ] && [ -r "$points" ] || misused "--overlay $1: no file $points; expected FILE:X:Y"
+        misused "$(typed overlay)$1: expected FILE:X:Y, a file and two of its columns by number or name"
+    [ -f "$points" ] && [ -r "$points" ] || misused "$(typed overlay)$1: no file $points; expected FILE:X:Y"
     found=$(X=${rest##*:} Y=$y awk "BEGIN { at = ENVIRON[\"X\"]; over = ENVIRON[\"Y\"] } $(cat "$PLOTS/overlay.awk")" < "$points") ||
-        misused "--overlay $1: ${found##*!}"
+        misused "$(typed overlay)$1: ${found##*!}"
 }
 IFS_before=$IFS
 IFS=$newline
@@ -211,6 +206,11 @@ for one in $overlays; do
 done
 IFS=$IFS_before
 overlays=$absolute_overlays
+if [ "$wanted" = --help ]; then
+    help
+    exit
+fi
+[ $# -gt 0 ] || misused 'the folder with the tables of a deck is missing'
 
 case $format in *,*) formats=$(echo "$format" | tr , ' ') ;; *) formats= ;; esac
 if [ $# -gt 1 ] || [ -n "$formats" ]; then
@@ -245,7 +245,7 @@ outdir=${1%/}
 case $1 in /*) folder=$1 ;; *) folder=${1:+./$1} ;; esac
 [ ! -f "$folder" ] || fail "$outdir is a file: name the folder with the tables of a deck, such as outputs/mechanism1" 2
 [ -d "$folder" ] || fail "no folder $outdir" 2
-command -v gnuplot > /dev/null || fail 'gnuplot is not installed'
+command -v gnuplot > /dev/null || fail 'gnuplot is not installed; only figures and animations need it (Debian: gnuplot-nox)'
 
 cd "$folder" || fail "cannot enter $outdir"
 new=.figures.$$
@@ -828,7 +828,7 @@ for one in $overlays; do
     IFS=$IFS_before
     overlay=$((overlay + 1))
     grep -qx $overlay "$new/overlaid" 2> /dev/null ||
-        fail "--overlay $one: no figure of $outdir has these axes; expected headings and units as in its tables, such as crank [deg] and torque [N.m]" 2
+        fail "$(typed overlay)$one: no figure of $outdir has these axes; expected headings and units as in its tables, such as crank [deg] and torque [N.m]" 2
 done
 IFS=$IFS_before
 

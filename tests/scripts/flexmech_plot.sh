@@ -236,9 +236,13 @@ typed_at_make() {
     made 0 figures DECK="$name.deck" && [ -s "$tree/outputs/$name/figures/kinematics_angles.png" ] || { echo "no figures of $name"; return 1; }
     (export DECK="$name.deck" && made 0 run) || return 1
   done
-  for name in FORMAT SIZE TITLES ERRORS; do
+  for name in FORMAT SIZE TITLES ERRORS STYLE OVERLAY; do
     made 2 figures DECK=-dash.deck "$name=$text" && says "make: $name=$text: " || return 1
   done
+  made 2 figures DECK=-dash.deck ONLY="$text" && says "make: ONLY=it's: expected one of " || return 1
+  printf 'crank,angle\n0,0\n' >"$tree/$text.csv" && printf 'set border 3\n' >"$tree/$text.gp" && rm -r "$tree/outputs/-dash/figures" &&
+    made 0 figures DECK=-dash.deck ONLY=kinematics_angles STYLE="$text.gp" OVERLAY="$text.csv:1:2" || return 1
+  [ "$(ls "$tree/outputs/-dash/figures")" = "$(printf 'drawn.txt\nkinematics_angles.png')" ] || { ls "$tree/outputs/-dash/figures"; return 1; }
   made 2 animate DECK="$text" && says "there is no file $text;" && made 2 run && says "DECK is missing" &&
     made 2 golden CASE="$text" && says "there is no inputs/$text.deck" || return 1
   made 0 install PREFIX="/$text" DESTDIR="$text" && [ -x "$tree/$text/$text/bin/flexmech-plot" ] && made 0 install PREFIX=-dash &&
