@@ -1,6 +1,6 @@
 # FLEXMECH. `make help` lists what can be asked for.
 #
-# It runs in two stages. The targets a person types, here and in make/figures.mk, check.mk, studies.mk and install.mk, first see
+# It runs in two stages. The targets a person types, here and in make/figures.mk, check.mk, studies.mk, install.mk and package.mk, first see
 # that the tools are there (`setup`), then call this file again with kind=release or kind=debug. Only that second call looks at
 # sources, compilers and archives, in make/build.mk, programs.mk, tests.mk and pfunit.mk: on a fresh machine there is no gfortran
 # yet when the first one is read.
@@ -23,6 +23,7 @@ export PREFIX SPEEDS FUZZ SEED CASES FIRST FREQUENCIES LINKAGES LOADS VIBRATIONS
 
 program = build/release/flexmech
 of_mpi  = build/mpi/flexmech
+portable = build/portable/flexmech
 support = tests/support
 # The second stage uses every processor unless the caller has said how many. V=1 shows the commands in full.
 stage   = +@$(MAKE) --no-print-directory $(if $(V),,-s) $(if $(findstring -j,$(MAKEFLAGS)),,-j$(shell nproc))
@@ -53,7 +54,7 @@ clean:
 help:
 	@cat make/help.txt
 
-include make/figures.mk make/check.mk make/studies.mk make/install.mk
+include make/figures.mk make/check.mk make/studies.mk make/install.mk make/package.mk
 else
 include make/build.mk make/programs.mk make/tests.mk $(if $(PFUNIT_DIR),make/pfunit.mk)
 endif

@@ -73,6 +73,15 @@ $(build)/flexmech: $(modules) $(build)/main.o
 	@echo "link $@"
 	$(compile) $^ $(libraries) -o $@
 
+# For other machines: of libraries it needs that of C alone. Each one stands before those that it needs. What memory_refusals.f90 has
+# in place of procedures of libgfortran comes first, and is taken (muldefs).
+runtime := $(foreach name,libgfortran.a libquadmath.a libgomp.a,$(call archive,$(name)))
+$(portable): $(modules) $(build)/main.o
+	@echo "link $@"
+	mkdir -p $(@D)
+	$(FC) $(FFLAGS) -static-libgfortran -static-libgcc -Wl,--as-needed,-z,muldefs $^ $(libraries) $(runtime) -lm -o $@
+	printf '%s\n' $(realpath $(filter %.a,$(libraries) $(runtime))) > $(@D)/archives
+
 # ---------------------------------- the program for several processes: the same objects, but for the one that knows of MPI
 $(of_mpi): $(filter-out %/ranks_alone.o,$(modules)) $(build)/main.o build/mpi/ranks_mpi.o
 	@echo "link $@"

@@ -9,10 +9,10 @@ check: setup
 
 # What `make check` leaves out, and all slow families; ONLY="fuzz threads" for some. The table is in check_all.py.
 check-all: all debug
-	@SANITIZERS=yes sh $(support)/setup.sh
+	@PACKAGE=yes LINTIAN=yes SANITIZERS=yes sh $(support)/setup.sh
 	$(stage) kind=sanitize build/sanitize/flexmech
 	$(stage) kind=debug build/debug/bench/bench build/debug/$(unit_tests)
-	$(stage) kind=release build/release/$(unit_tests) build/release/bench/bench build/release/stress/responses build/release/stress/stability \
+	$(stage) kind=release $(portable) build/release/$(unit_tests) build/release/bench/bench build/release/stress/responses build/release/stress/stability \
 	    build/release/stress/read_words $(if $(shell command -v mpifort),$(of_mpi))
 	@set -f; python3 -B $(support)/check_all.py $(unit_tests) $$ONLY
 

@@ -9,7 +9,7 @@ install:
 	install -d -- "$(there)/bin" "$(share)/flexmech" "$(share)/man/man1" \
 	    "$(share)/bash-completion/completions" "$(share)/zsh/site-functions" "$(share)/fish/vendor_completions.d"
 	install -m 755 -- $(program) "$(there)/bin/flexmech"
-	cp -R -- plots library docs inputs "$(share)/flexmech/"
+	cp -R -- plots library docs inputs README.md CHANGELOG.md CITATION.cff LICENSE "$(share)/flexmech/"
 	install -d -- "$(share)/flexmech/exchange/flexmech_files"
 	install -m 644 -- exchange/flexmech_files/*.py "$(share)/flexmech/exchange/flexmech_files"
 	install -m 755 -- plots/flexmech-plot plots/flexmech-report exchange/flexmech-import exchange/flexmech-export "$(there)/bin"

@@ -230,7 +230,7 @@ made() {
 typed_at_make() {
   tree=$scratch/tree
   text='it'\''s "a" `touch run` $(touch run) $$x$ $(shell touch run); touch run; \n %s &|*?[é] #'
-  mkdir "$tree" && cp -R Makefile make plots library exchange docs inputs "$tree" && ln -s "$(pwd)/build" "$tree/build" || return 1
+  mkdir "$tree" && cp -R Makefile ./*.md CITATION.cff LICENSE make plots library exchange docs inputs "$tree" && ln -s "$(pwd)/build" "$tree/build" || return 1
   for name in -dash "$text"; do
     motion_deck >"$tree/$name.deck"
     made 0 figures DECK="$name.deck" && [ -s "$tree/outputs/$name/figures/kinematics_angles.png" ] || { echo "no figures of $name"; return 1; }

@@ -34,7 +34,7 @@ TABLE_SHARES = 4  # of the decks of tests/tables/
 # build, as users have it, and what is below, and all of the debug build, wait for `make check-all`.
 SLOW_DECKS = ["campbell", "damped_engine", "stability", "strains", "transient"]  # of inputs/
 SLOW_GROUPS = ["bench", "failed_variants", "figure_details", "figure_extents", "figures", "flexmech_plot", "interruption", "job_scripts", "memory", "mpi",
-               "numbers_of_documents", "parts", "random_linkages", "report", "report_browser", "reports", "resume", "running", "stability", "summary", "threads",
+               "numbers_of_documents", "package", "parts", "random_linkages", "report", "report_browser", "reports", "resume", "running", "stability", "summary", "threads",
                "vibrations"]  # scripts and procedures below
 SLOW_TESTS = [module + " " for module in (
     "test_instability_intervals", "test_damped_eigensolver", "test_transient_responses", "test_path_grids",

@@ -31,6 +31,12 @@ if test "$MPI" = yes; then
   need_command mpifort libopenmpi-dev
   need_command mpirun openmpi-bin
 fi
+if test -n "$PACKAGE"; then
+  need_command dpkg-shlibdeps dpkg-dev
+fi
+if test -n "$LINTIAN"; then
+  need_command lintian lintian
+fi
 if test -n "$SANITIZERS"; then
   need_library "libgcc-$("$compiler" -dumpversion 2> /dev/null | sed 's/\..*//')-dev" libasan.so libasan.a
   need_library "libgcc-$("$compiler" -dumpversion 2> /dev/null | sed 's/\..*//')-dev" libubsan.so libubsan.a
