@@ -6,7 +6,8 @@
 docs/deck.md has to name every card, key, report, table and option that the program lists, docs/import.md the options of the
 commands for files of other programs; paths and links in README.md and
 docs/ have to lead somewhere, a file has to have the procedures that are said to be in it, and src/ those that
-docs/architecture.md calls. The program, CHANGELOG.md and CITATION.cff have to have the same version.
+docs/architecture.md calls. The program, CHANGELOG.md and CITATION.cff have to have the same version and date of release, README.md
+and CITATION.cff the same address.
 
 Prints `ok WHAT` or `not ok WHAT: why`; exit status 1 when anything is wrong.
 """
@@ -72,11 +73,26 @@ def faults_of_versions(program):
     numbers = [tuple(map(int, section)) for section in sections]
     if numbers != sorted(set(numbers), reverse=True):
         yield "the versions of CHANGELOG.md do not fall"
+    dates = [re.search(pattern, read(path), re.MULTILINE) for path, pattern in
+             (("CHANGELOG.md", r"\A(?:(?!^## ).*\n)*## .*\n\nReleased (\S+)\.$"), ("CITATION.cff", r"^date-released: (\S+)$"))]
+    told = [date[1] if date else "none" for date in dates]
+    if told[0] != told[1]:
+        yield f"CHANGELOG.md was released {told[0]}, CITATION.cff {told[1]}"
     tags = subprocess.run(["git", "tag", "--list", "v*"], capture_output=True, check=False, text=True).stdout.split()
     for tag in tags:
         found = re.fullmatch(r"v(\d+)\.(\d+)\.(\d+)", tag)
         if not found or tuple(map(int, found.groups())) > numbers[0]:
             yield f"the tag {tag} is no version up to {version}"
+    if f"v{version}" in tags and told[0] == "none":
+        yield f"the tag v{version} is there, and CHANGELOG.md has no line 'Released ...'"
+
+
+def faults_of_address():
+    """CITATION.cff has the address from which the sources come, once there is one."""
+    found = re.search(r"^repository-code: *(\S+)", read("CITATION.cff"), re.MULTILINE)
+    address = found[1] if found else "ADDRESS"
+    if not re.search(rf"^ +git clone {re.escape(address)} flexmech\b", read("README.md"), re.MULTILINE):
+        yield f"README.md does not clone {address}"
 
 
 # What the Citation File Format 1.2.0 requires of a file, and of what is cited in it.
@@ -162,7 +178,7 @@ def main():
         for what, pattern in known:
             tell(f"docs/{name}, {what}", None if re.search(pattern, text) else f"nothing matches {pattern}")
     found = list(faults_of_versions(next(path for path in PROGRAMS if os.path.exists(path)))) + \
-        list(faults_of_citation(read("CITATION.cff")))
+        list(faults_of_citation(read("CITATION.cff"))) + list(faults_of_address())
     for why in found or [None]:
         tell("version and citation", why)
     sources = "".join(read(path) for path in glob("src/**/*.f90", recursive=True))

@@ -5,6 +5,6 @@ module program_version
 
   public :: program_name, version_number
 
-  character(len=*), parameter :: program_name = "flexmech", version_number = "0.2.0"
+  character(len=*), parameter :: program_name = "flexmech", version_number = "0.3.0"
 
 end module program_version
