@@ -1,4 +1,4 @@
-"""The tables of docs/deck.md that the program's own answers give."""
+"""The tables of docs/reports.md that the program's own answers give."""
 
 import subprocess
 

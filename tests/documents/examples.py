@@ -55,7 +55,7 @@ def deck_of_readme(program, texts):
 
 
 def worked_deck(program, texts):
-    text = texts["docs/deck.md"]
+    text = texts["docs/cards.md"]
     run = Run(program, block_with(text, "TITLE "))
     if run.status != 0:
         yield f"it ends with status {run.status}: {run.errors}"
@@ -70,7 +70,7 @@ def worked_deck(program, texts):
 
 
 def message_of_included_file(program, texts):
-    message = block_with(texts["docs/deck.md"], "included from")
+    message = block_with(texts["docs/cards.md"], "included from")
     path, number = re.match(r"(\S+?):(\d+):", message).groups()
     line = re.search(r" \| (.*)$", message, re.MULTILINE)[1]
     deck, place = re.search(r"included from (\S+):(\d+)", message).groups()
@@ -80,7 +80,7 @@ def message_of_included_file(program, texts):
 
 
 def message_of_memory(program, texts):
-    text = " ".join(texts["docs/deck.md"].split())
+    text = " ".join(texts["docs/cards.md"].split())
     with open(os.path.join("inputs", "exact.deck"), encoding="utf-8") as file:
         deck = file.read()
     message = re.search(r"`(dense matrices of (\d+) unknowns.*?)`", text)

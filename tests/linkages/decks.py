@@ -1,4 +1,4 @@
-"""Reads a deck of any linkage (docs/deck.md) into plain records, all numbers as decimals in SI units.
+"""Reads a deck of any linkage (docs/cards.md) into plain records, all numbers as decimals in SI units.
 
 An own reader, for decks without mistakes: it knows the cards that the checks use, and says which it does not know.
 """

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The lines of docs/deck.md by which pandas reads a plain table. Without pandas, a stand-in reads the rows.
+# The lines of docs/running.md by which pandas reads a plain table. Without pandas, a stand-in reads the rows.
 . tests/scripts/functions.sh
 
 out=$scratch/out
@@ -22,7 +22,7 @@ except ImportError:
     pandas.read_csv = read_csv
     sys.modules["pandas"] = pandas
 
-with open("docs/deck.md", encoding="utf-8") as document:
+with open("docs/running.md", encoding="utf-8") as document:
     text = document.read()
 recipe, = re.findall(r"(?:^    .*\n)*^    table = pandas\.read_csv.*\n", text, re.MULTILINE)
 recipe = "\n".join(line[4:] for line in recipe.splitlines() if not line.startswith("    path ="))

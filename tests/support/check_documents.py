@@ -3,8 +3,8 @@
 
     check_documents.py
 
-docs/deck.md has to name every card, key, report, table and option that the program lists, docs/import.md the options of the
-commands for files of other programs; paths and links in README.md and
+docs/cards.md has to name every card and key that the program lists, docs/reports.md every report, its keys and tables,
+docs/running.md the program's options, docs/figures.md and docs/import.md those of the commands beside it; paths and links in README.md and
 docs/ have to lead somewhere, a file has to have the procedures that are said to be in it, and src/ those that
 docs/architecture.md calls. The program, CHANGELOG.md and CITATION.cff have to have the same version and date of release, README.md
 and CITATION.cff the same address.
@@ -28,23 +28,42 @@ def read(path):
         return file.read()
 
 
-def known_of_deck():
-    """What docs/deck.md must have, with the place where it must stand: in code, so that it can be found."""
-    program = next(path for path in PROGRAMS if os.path.exists(path))
-    tongue = language(program)
-    for keyword in tongue.keywords:
-        yield f"card {keyword}", rf"`{keyword}\b"
-    for pattern in tongue.patterns:
+# What a document must have, with the place where it must stand: in code, so that it can be found.
+
+
+def tongue():
+    return language(next(path for path in PROGRAMS if os.path.exists(path)))
+
+
+def keys_of(patterns):
+    for pattern in patterns:
         keyword = pattern.split()[0]
         for key in re.findall(r"(\w+)=", pattern):
             yield f"{keyword} {key}=", rf"`[^`\n]*\b{key}="
-    for report in tongue.reports:
+
+
+def known_of_cards():
+    for keyword in tongue().keywords:
+        yield f"card {keyword}", rf"`{keyword}\b"
+    yield from keys_of(pattern for pattern in tongue().patterns if not pattern.startswith("REPORT "))
+
+
+def known_of_reports():
+    yield from keys_of(pattern for pattern in tongue().patterns if pattern.startswith("REPORT "))
+    for report in tongue().reports:
         yield f"report {report}", rf"`(?:REPORT )?{report}\b"
-    for table in tongue.tables:
+    for table in tongue().tables:
         yield f"table {table}", rf"`{re.escape(table)}`"
+
+
+def known_of_running():
+    program = next(path for path in PROGRAMS if os.path.exists(path))
     text = subprocess.run([program, "--help"], capture_output=True, check=True, text=True).stdout
     for option in re.findall(r"^  (--[\w-]+)", text, re.MULTILINE):
         yield f"option {option}", rf"`{option}\b"
+
+
+def known_of_figures():
     for command in ("flexmech-plot", "flexmech-report"):
         text = subprocess.run([os.path.join("plots", command), "--help"], capture_output=True, check=True, text=True).stdout
         for option in re.findall(r"^  (--?[\w-]+)", text, re.MULTILINE):
@@ -52,7 +71,6 @@ def known_of_deck():
 
 
 def known_of_exchange():
-    """What docs/import.md must have: the options of the commands for files of other programs."""
     for command in ("flexmech-import", "flexmech-export"):
         text = subprocess.run([os.path.join("exchange", command), "--help"], capture_output=True, check=True, text=True).stdout
         for option in re.findall(r"(?<=[ ,])(--?[a-z][\w-]*)", "\n".join(re.findall(r"^  -.*", text, re.MULTILINE))):
@@ -173,9 +191,10 @@ def main():
         wrong = wrong or why is not None
         print(f"ok {what}" if why is None else f"not ok {what}: {why}")
 
-    for name, known in (("deck.md", known_of_deck()), ("import.md", known_of_exchange())):
+    for name, known in (("cards.md", known_of_cards), ("reports.md", known_of_reports), ("running.md", known_of_running),
+                        ("figures.md", known_of_figures), ("import.md", known_of_exchange)):
         text = read(os.path.join("docs", name))
-        for what, pattern in known:
+        for what, pattern in known():
             tell(f"docs/{name}, {what}", None if re.search(pattern, text) else f"nothing matches {pattern}")
     found = list(faults_of_versions(next(path for path in PROGRAMS if os.path.exists(path)))) + \
         list(faults_of_citation(read("CITATION.cff"))) + list(faults_of_address())

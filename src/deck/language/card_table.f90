@@ -9,7 +9,7 @@
 !!
 !! A new card needs a record here, a file in `model/cards` that reads it, and a case in
 !! `model_reader`. Messages, `echo.deck`, `flexmech --help-cards`, the fuzzer and the check of
-!! docs/deck.md use this table.
+!! docs/cards.md use this table.
 module card_table
   use text, only: append_string, joined, same_word, string_t
   implicit none (type, external)
