@@ -1,5 +1,6 @@
-"""The tables of docs/reports.md that the program's own answers give."""
+"""The table of docs/reports.md that the program's own answers give."""
 
+import re
 import subprocess
 
 from deck_language import language
@@ -54,14 +55,22 @@ class Tables:
             return UNUSED
         return "or the default" if self._accepts(report, without=["MESH"]) else NEEDED
 
-    def report_needs(self):
-        for report in language(self._program).reports:
+    @staticmethod
+    def _text(words):
+        """As a cell of a table."""
+        return Word(words.replace("*", r"\*").replace("|", " or "))
+
+    def reports(self):
+        """One row a report: what it is about, the tables of all its forms, and the cards that it needs."""
+        tongue = language(self._program)
+        for report in dict.fromkeys(tongue.reports):
             if not self._accepts(report):
                 raise ValueError(f"the deck of all cards is refused with REPORT {report}")
+            meanings = [meaning.split(" (default")[0] for pattern, meaning in zip(tongue.patterns, tongue.meanings)
+                        if re.match(rf"REPORT {report}\b", pattern)]
+            tables = dict.fromkeys(re.findall(r"\w+\.dat", " ".join(meanings)))
+            needs = [UNUSED if self._accepts(report, without=["CRANK"]) else NEEDED, self._links(report), self._mesh(report)]
             if report == "summary":
-                yield [Word(f"`{report}`"), Word(NEEDED), *[Word("as the reports of its quantities")] * 3]
-                continue
-            yield [Word(f"`{report}`"),
-                   Word(UNUSED if self._accepts(report, without=["CRANK"]) else NEEDED),
-                   Word(self._links(report)), Word(self._mesh(report)),
-                   Word(UNUSED if self._accepts(report, without=["POINT"]) else NEEDED)]
+                needs[1:] = ["as the reports of its quantities"]*2
+            yield [Word(f"[{report}](#{report})"), self._text("; ".join(meaning.rpartition(": ")[0] for meaning in meanings)),
+                   Word(", ".join(f"`{table}`" for table in tables)), *map(Word, needs)]

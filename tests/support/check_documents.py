@@ -3,11 +3,11 @@
 
     check_documents.py
 
-docs/cards.md has to name every card and key that the program lists, docs/reports.md every report, its keys and tables,
-docs/running.md the program's options, docs/figures.md and docs/import.md those of the commands beside it; paths and links in README.md and
-docs/ have to lead somewhere, a file has to have the procedures that are said to be in it, and src/ those that
-docs/architecture.md calls. The program, CHANGELOG.md and CITATION.cff have to have the same version and date of release, README.md
-and CITATION.cff the same address.
+docs/cards.md has to have every card that the program lists, each in a section of its own with its pattern, docs/reports.md every report
+likewise, and all tables, docs/running.md the program's options, docs/figures.md and docs/import.md those of the commands beside it, and
+all figures of plots/figures.txt; paths and links in README.md and docs/ have to lead somewhere, a file has to have the procedures that are
+said to be in it, and src/ those that docs/architecture.md calls. The program, CHANGELOG.md and CITATION.cff have to have the same version
+and date of release, README.md and CITATION.cff the same address.
 
 Prints `ok WHAT` or `not ok WHAT: why`; exit status 1 when anything is wrong.
 """
@@ -28,53 +28,70 @@ def read(path):
         return file.read()
 
 
-# What a document must have, with the place where it must stand: in code, so that it can be found.
-
-
 def tongue():
     return language(next(path for path in PROGRAMS if os.path.exists(path)))
 
 
-def keys_of(patterns):
-    for pattern in patterns:
-        keyword = pattern.split()[0]
-        for key in re.findall(r"(\w+)=", pattern):
-            yield f"{keyword} {key}=", rf"`[^`\n]*\b{key}="
+def sections(text):
+    """Every heading with the text below it, up to the next heading of its level or above."""
+    found = {}
+    headings = list(re.finditer(r"^(#+) (.*)$", text, re.MULTILINE))
+    for number, heading in enumerate(headings):
+        behind = (other.start() for other in headings[number + 1:] if len(other[1]) <= len(heading[1]))
+        found.setdefault(heading[2], text[heading.end():next(behind, len(text))])
+    return found
 
 
-def known_of_cards():
+def has_pattern(section, pattern):
+    """Whether the form of a card stands there, in code; in tables its bars have a stroke before them."""
+    code = re.findall(r"^    .*(?:\n    .*)*|`[^`\n]*`", section.replace("\\|", "|"), re.MULTILINE)
+    return any(" ".join(pattern.split()) in " ".join(one.split()) for one in code)
+
+
+# What a document must have: what it is, and whether it is there. A card or report has a section of its own.
+
+
+def known_of_cards(text):
+    parts = sections(text)
     for keyword in tongue().keywords:
-        yield f"card {keyword}", rf"`{keyword}\b"
-    yield from keys_of(pattern for pattern in tongue().patterns if not pattern.startswith("REPORT "))
+        yield f"card {keyword}", keyword in parts
+    for pattern in tongue().patterns:
+        if not re.match(r"REPORT [a-z]+( \[?\w+=|$)", pattern):
+            yield pattern, has_pattern(parts.get(pattern.split()[0], ""), pattern)
 
 
-def known_of_reports():
-    yield from keys_of(pattern for pattern in tongue().patterns if pattern.startswith("REPORT "))
+def known_of_reports(text):
+    parts = sections(text)
     for report in tongue().reports:
-        yield f"report {report}", rf"`(?:REPORT )?{report}\b"
+        yield f"report {report}", report in parts
+    for pattern in tongue().patterns:
+        if re.match(r"REPORT [a-z]+( \[?\w+=|$)", pattern):
+            yield pattern, has_pattern(parts.get(pattern.split()[1], ""), pattern)
     for table in tongue().tables:
-        yield f"table {table}", rf"`{re.escape(table)}`"
+        yield f"table {table}", f"`{table}`" in text
 
 
-def known_of_running():
+def known_of_running(text):
     program = next(path for path in PROGRAMS if os.path.exists(path))
-    text = subprocess.run([program, "--help"], capture_output=True, check=True, text=True).stdout
-    for option in re.findall(r"^  (--[\w-]+)", text, re.MULTILINE):
-        yield f"option {option}", rf"`{option}\b"
+    help_text = subprocess.run([program, "--help"], capture_output=True, check=True, text=True).stdout
+    for option in re.findall(r"^  (--[\w-]+)", help_text, re.MULTILINE):
+        yield f"option {option}", re.search(rf"`{option}\b", text)
 
 
-def known_of_figures():
+def known_of_figures(text):
     for command in ("flexmech-plot", "flexmech-report"):
-        text = subprocess.run([os.path.join("plots", command), "--help"], capture_output=True, check=True, text=True).stdout
-        for option in re.findall(r"^  (--?[\w-]+)", text, re.MULTILINE):
-            yield f"option {option} of {command}", rf"`{command}[^`\n]* {option}\b|`{option}\b"
+        help_text = subprocess.run([os.path.join("plots", command), "--help"], capture_output=True, check=True, text=True).stdout
+        for option in re.findall(r"^  (--?[\w-]+)", help_text, re.MULTILINE):
+            yield f"option {option} of {command}", re.search(rf"`{command}[^`\n]* {option}\b|`{option}\b", text)
+    for figure in re.findall(r"^(?:figures|animations) +(\w+)", read(os.path.join("plots", "figures.txt")), re.MULTILINE):
+        yield f"figure {figure}", f"`{figure}`" in text
 
 
-def known_of_exchange():
+def known_of_import(text):
     for command in ("flexmech-import", "flexmech-export"):
-        text = subprocess.run([os.path.join("exchange", command), "--help"], capture_output=True, check=True, text=True).stdout
-        for option in re.findall(r"(?<=[ ,])(--?[a-z][\w-]*)", "\n".join(re.findall(r"^  -.*", text, re.MULTILINE))):
-            yield f"option {option} of {command}", rf"`{option}\b"
+        help_text = subprocess.run([os.path.join("exchange", command), "--help"], capture_output=True, check=True, text=True).stdout
+        for option in re.findall(r"(?<=[ ,])(--?[a-z][\w-]*)", "\n".join(re.findall(r"^  -.*", help_text, re.MULTILINE))):
+            yield f"option {option} of {command}", re.search(rf"`{option}\b", text)
 
 
 def faults_of_versions(program):
@@ -192,10 +209,9 @@ def main():
         print(f"ok {what}" if why is None else f"not ok {what}: {why}")
 
     for name, known in (("cards.md", known_of_cards), ("reports.md", known_of_reports), ("running.md", known_of_running),
-                        ("figures.md", known_of_figures), ("import.md", known_of_exchange)):
-        text = read(os.path.join("docs", name))
-        for what, pattern in known():
-            tell(f"docs/{name}, {what}", None if re.search(pattern, text) else f"nothing matches {pattern}")
+                        ("figures.md", known_of_figures), ("import.md", known_of_import)):
+        for what, is_there in known(read(os.path.join("docs", name))):
+            tell(f"docs/{name}, {what}", None if is_there else "is not there")
     found = list(faults_of_versions(next(path for path in PROGRAMS if os.path.exists(path)))) + \
         list(faults_of_citation(read("CITATION.cff"))) + list(faults_of_address())
     for why in found or [None]:
