@@ -152,28 +152,33 @@ def targets(_, texts):
                 yield f"{path}: there is no make {target}"
 
 
-def tutorial(program, texts):
-    """Its deck without the cards that it forgets, and its commands one after the other, with what they print."""
-    text = texts["docs/tutorial.md"]
-    deck = block_with(text, "TITLE ")
-    for card, message in re.findall(r"(?:Without|With) `([^`]+)`[^`]*:\n\n((?:    .*\n)+)", text):
+def faults_of_tutorial(program, text):
+    """Its deck with what it gets wrong, and its commands one after the other, with what they print."""
+    deck, name = block_with(text, "TITLE "), re.search(r"Save the deck as `(\S+)`", text)[1]
+    for words, old, message in re.findall(r"(With(?:out)? `[^`]+`)(?: in place of `([^`]+)`)?[^`]*:\n\n((?:    .*\n)+)", text):
+        new, card = ("", words[9:-1] + "\n") if words.startswith("Without") else (words[6:-1], old)
         message = "\n".join(line[4:] for line in message.rstrip("\n").split("\n"))
-        changed = re.sub(r"(LINK +rod.*) length=\d+", rf"\1 {card}", deck) if "=" in card else deck.replace(card + "\n", "")
-        found = said(program, {"shaper.deck": changed + "\n"}, "shaper.deck")
-        if changed == deck or not found.startswith(message):
+        found = said(program, {name: deck.replace(card, new) + "\n"}, name)
+        if deck.count(card) != 1 or not found.startswith(message):
             yield f"with {card!r} changed the message is now\n{found}"
     with tempfile.TemporaryDirectory() as folder:
         os.symlink(os.path.abspath("inputs"), os.path.join(folder, "inputs"))
-        with open(os.path.join(folder, "shaper.deck"), "w", encoding="utf-8") as file:
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
             file.write(deck + "\n")
         for block in blocks(text):
-            if not re.match(r"make |awk |grep |paste |\(sed ", block):
+            if not re.match(r"make |flexmech |awk |grep |paste |\(sed ", block):
                 continue
             command, _, printed = block.partition("\n\n")
-            runs = re.sub(r"make (?:figures|run) DECK=(\S+).*", rf"{program} --quiet \1", command)
+            runs = re.sub(r"(?m)^make (?:figures|run) DECK=(\S+).*|^flexmech (\S+)$", rf"{program} --quiet \1\2", command)
             done = subprocess.run(runs, shell=True, cwd=folder, capture_output=True, text=True, check=False)
             if done.returncode or done.stdout.rstrip() != printed.rstrip():
                 yield f"{command}\nprints\n{done.stdout}{done.stderr}"
+
+
+def tutorials(program, texts):
+    for path, text in texts.items():
+        if os.path.basename(path).startswith("tutorial"):
+            yield from (f"{path}: {why}" for why in faults_of_tutorial(program, text))
 
 
 def block_of_linkage(program, texts):
@@ -183,4 +188,4 @@ def block_of_linkage(program, texts):
         yield f"it ends with status {run.status}: {run.errors}"
 
 
-CHECKS = (tutorial, block_of_linkage, deck_of_readme, worked_deck, cards_of_documents, message_of_included_file, message_of_memory, commands_with_decks, commands_on_tables, targets)
+CHECKS = (tutorials, block_of_linkage, deck_of_readme, worked_deck, cards_of_documents, message_of_included_file, message_of_memory, commands_with_decks, commands_on_tables, targets)
