@@ -15,7 +15,7 @@ module table_columns
   private
 
   public :: table_layout_t, name_list_t, new_table_layout, add_quantity_column, choose_columns, &
-    header_columns, find_chosen_cells, cells, column_width, table_unit, table_factor
+    header_columns, find_chosen_cells, cells, in_column, column_width, table_unit, table_factor
 
   !> The columns of one table, with the units to which numbers in SI are converted.
   type :: table_layout_t
@@ -289,7 +289,7 @@ contains
     integer :: i
 
     do i = 1, size(values)
-      converted(i) = from_si(values(i), layout%measures(first + i - 1))
+      converted(i) = in_column(layout, first + i - 1, values(i))
     end do
     if (.not. allocated(layout%chosen)) then
       text = real_cells(converted)
@@ -302,6 +302,16 @@ contains
         real_cells(converted(i:i))
     end do
   end function cells
+
+  !> A value in the unit of its column.
+  pure function in_column(layout, column, value) result(shown)
+    type(table_layout_t), intent(in) :: layout !! of the table
+    integer, intent(in) :: column              !! number, from 1
+    real(wp), intent(in) :: value              !! a quantity in SI, any other in its column's unit
+    real(wp) :: shown
+
+    shown = from_si(value, layout%measures(column))
+  end function in_column
 
   !> Width of a column in characters.
   pure function column_width(layout, column) result(width)

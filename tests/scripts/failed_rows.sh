@@ -145,8 +145,10 @@ check "a block that leaves its link" leaving_block
 lengths() {
   printf '%s\n' "UNITS mm kg s" "GROUND O 0 0" "GUIDE g 0 0 angle=0" "LINK crank O A length=30 mass=1 inertia=10" \
     "LINK rod A B length=100 mass=1 inertia=10" "SLIDER B g" "BRANCH A left O B" "DRIVE B g" \
-    "CRANK 120 150" "REPORT pins" "REPORT motion crank=160 end=1 step=0.1" >"$scratch/pump.deck"
+    "CRANK 120 150" "REPORT pins" "REPORT geometry crank=150" \
+    "REPORT motion crank=160 end=1 step=0.1" >"$scratch/pump.deck"
   run 1 --out "$scratch/out" "$scratch/pump.deck" && says "position 150 mm: out of reach: 'rod' and 'crank' together are 20 mm too short" &&
-    says "motion, time 0 s, position 160 mm: out of reach: 'rod' and 'crank' together are 30 mm too short"
+    says "motion, time 0 s, position 160 mm: out of reach: 'rod' and 'crank' together are 30 mm too short" || return 1
+  grep -q "^# failed crank=150 : out of reach" "$scratch/out/pump/geometry.dat" || { echo "the drawing has another unit"; return 1; }
 }
 check "positions of a slider are lengths" lengths

@@ -11,7 +11,7 @@ module geometry_report
   use report_kinds, only: report_kind_t
   use report_types, only: add_table, fit_columns, report_record_t, table_plan_t, whole_table_t
   use spring_cards, only: spring_card_t
-  use table_columns, only: cells, column_width, name_list_t, table_layout_t
+  use table_columns, only: cells, column_width, in_column, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: decimal_cell, name_cell
   use text, only: append_string, same_word, string_t
@@ -140,7 +140,8 @@ contains
       do i = 1, size(found%crank)
         if (i > 1) call add_gap(rows, 2)
         if (allocated(found%outcome(i)%error)) then
-          call add_failed_row(rows, [found%crank(i)], found%outcome(i)%error%text)
+          call add_failed_row(rows, [in_column(layout, 1, found%crank(i))], &
+            found%outcome(i)%error%text)
         else
           call add_drawing(variant, layout, found, i, cells(layout, 1, [found%crank(i)]), rows)
         end if
