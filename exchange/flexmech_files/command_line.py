@@ -27,9 +27,9 @@ def read_options(arguments, valued, flags):
                 raise Wrong(f"{name} takes no value: {word}")
             options[name] = True
         elif name in valued:
-            if not equals and not rest:
+            value = value if equals or not rest else rest.pop(0)
+            if not value:
                 raise Wrong(f"{name} takes a value")
-            value = value if equals else rest.pop(0)
             if valued[name]:
                 options.setdefault(name, []).append(value)
             elif name in options:
@@ -43,23 +43,34 @@ def read_options(arguments, valued, flags):
 
 def write(text, path, force):
     """To standard output, or to a file, whole or not at all; one that is there stays, unless it is to be replaced."""
+    # Names of files, and texts of JSON, may have halves of letters.
+    data = text.encode("utf-8", errors="replace")
     if path is None:
-        sys.stdout.write(text)
+        sys.stdout.buffer.write(data)
         sys.stdout.flush()
+        return
+    if os.path.isdir(path):
+        raise Wrong(f"{path} is a folder")
+    if os.path.exists(path) and not os.path.isfile(path):
+        # A device or a pipe stays one.
+        with open(path, "wb") as file:
+            file.write(data)
         return
     if os.path.lexists(path) and not force:
         raise Wrong(f"{path} is there already; --force replaces it")
-    if os.path.isdir(path):
-        raise Wrong(f"{path} is a folder")
-    folder = os.path.dirname(path) or "."
-    handle, name = tempfile.mkstemp(prefix=".new-", dir=folder)
+    # Behind a link the file is replaced, not the link.
+    whole = os.path.realpath(path)
     try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
+        handle, name = tempfile.mkstemp(prefix=".new-", dir=os.path.dirname(whole))
+    except OSError as fault:
+        raise Wrong(f"{path}: {fault.strerror}") from None
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
         mask = os.umask(0)
         os.umask(mask)
         os.chmod(name, 0o666 & ~mask)
-        os.replace(name, path)
+        os.replace(name, whole)
     except OSError:
         os.unlink(name)
         raise
@@ -81,6 +92,6 @@ def run(command, arguments, usage, work):
         sys.stderr.close()
         return 1
     except OSError as fault:
-        print(f"{command}: {fault.filename or ''}: {fault.strerror}", file=sys.stderr)
+        print(f"{command}: {fault.filename or 'standard output'}: {fault.strerror}", file=sys.stderr)
         return 2
     return 0

@@ -1,6 +1,7 @@
 """A drawing as a deck."""
 
 import math
+import re
 
 from .drawing import FRAME
 from .names import Names
@@ -9,6 +10,11 @@ from .names import Names
 def number(value, digits=11):
     """Eleven digits: more than change points need, which lengths may miss by 1e-9."""
     return f"{value + 0.0:.{digits}g}"
+
+
+def _line(text):
+    """In one line, without letters that no deck takes."""
+    return " ".join(re.sub(r"[\x00-\x08\x0e-\x1f\x7f]", " ", str(text)).split())
 
 
 def write(drawing, source, ranges_of=None):
@@ -88,8 +94,8 @@ class _Writer:
         # Drives come first: they may ask for MEASURE cards.
         drives, positions, laws = self._drives()
         blocks = [
-            [f"TITLE    {' '.join(self.drawing.title.split()) or 'A linkage'}"],
-            [f"! {line}" for line in [f"From {self.source}, by flexmech-import."] + self._notes()],
+            [f"TITLE    {_line(self.drawing.title) or 'A linkage'}"],
+            [f"! {_line(line)}" for line in [f"From {self.source}, by flexmech-import."] + self._notes()],
             [f"UNITS    {self.drawing.units}"],
             self._ground() + self._guides(),
             self._links(),
@@ -103,7 +109,7 @@ class _Writer:
 
     def _notes(self):
         notes = self.drawing.notes
-        return ["Not as in the file:"] + [f"- {' '.join(note.split())}" for note in notes] if notes else []
+        return ["Not as in the file:"] + [f"- {note}" for note in notes] if notes else []
 
     def _place(self, pin):
         x, y = self.places[pin]

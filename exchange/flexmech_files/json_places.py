@@ -76,6 +76,8 @@ def parts(data, key, text, what):
     named = {}
     for name, item in pairs:
         place = place_of(text, name) if isinstance(name, str) else place_of(text, key)
+        if isinstance(name, (list, dict)):
+            raise FileError(f"{what}: expected a text or a number for \"id\", not {json.dumps(name)}", *place)
         if not isinstance(item, dict):
             raise FileError(f"{what} {name}: expected an object", *place)
         if name in named:

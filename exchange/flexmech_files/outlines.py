@@ -40,8 +40,8 @@ def outline_of(deck, where, settings):
     with tempfile.TemporaryDirectory() as folder:
         # The deck comes from standard input: files that it includes are found beside it.
         command = [path, "--quiet", "--threads=1", "--out", folder] + [f"--set={setting}" for setting in settings] + ["-"]
-        done = subprocess.run(command, input=text, capture_output=True, check=False, text=True, errors="surrogateescape",
-                              cwd=os.path.dirname(os.path.abspath(deck)))
+        done = subprocess.run(command, input=text, capture_output=True, check=False, encoding="utf-8",
+                              errors="surrogateescape", cwd=os.path.dirname(os.path.abspath(deck)))
         table = next((os.path.join(place, "geometry.dat") for place, _, files in os.walk(folder) if "geometry.dat" in files), None)
         if table is None:
             told = done.stderr.replace("<standard input>:", f"{deck}:") or f"{deck}: error: the program gave no geometry\n"

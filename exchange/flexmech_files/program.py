@@ -37,7 +37,7 @@ def ranges(deck):
     with tempfile.TemporaryDirectory() as folder:
         command = [path, "--quiet", "--threads=1", "--out", folder, "-"]
         try:
-            subprocess.run(command, input=text, capture_output=True, check=False, text=True, cwd=folder, timeout=LONGEST)
+            subprocess.run(command, input=text.encode("utf-8", errors="replace"), capture_output=True, check=False, cwd=folder, timeout=LONGEST)
         except subprocess.TimeoutExpired:
             return []
         table = next((os.path.join(place, "linkage.dat") for place, _, files in os.walk(folder) if "linkage.dat" in files), None)

@@ -223,6 +223,8 @@ REFUSED = {
                                 ":2:8: error: joint A: expected a number for \"position\", not null"),
     "a joint of an unknown type": ('{"joints": [\n{"id": "A", "type": "spherical", "position": [0, 1]}],\n"links": [{"id": "a", "joints": ["A"]}]}',
                                    ":2:8: error: joint A: expected a type of ground, revolute, prismatic, tracker, not 'spherical'"),
+    "a name that is none": ('{"joints": [\n{"id": [1], "type": "ground", "position": [0, 1]}],\n"links": [{"id": "a", "joints": ["A"]}]}',
+                            ":1:2: error: joint: expected a text or a number for \"id\", not [1]"),
     "a link of a joint that is not there": ('{"joints": [\n{"id": "A", "position": [0, 1]}],\n"links": [{"id": "a", "joints": ["B"]}]}',
                                             ":3:18: error: link a: joint 'B' is not in this file"),
     "a later version": ('{"schema_version": "2.0.0",\n"bodies": {}, "joints": {}}', ":1:2: error: expected a schema_version of 1, not '2.0.0'"),
@@ -253,6 +255,56 @@ def no_overwriting():
     made = command("flexmech-import", "-o", path, "--force", source)
     with open(path, encoding="utf-8") as deck:
         return None if made.returncode == 0 and deck.read().startswith("TITLE    crank_rocker\n") else made.stderr or "not replaced"
+
+
+def places_to_write():
+    """Devices stay, links too, with what is behind them replaced; a folder that is not there is told by the name of the file."""
+    source = os.path.join(FOLDER, "crank_rocker.linkage2")
+    link, behind = os.path.join(SCRATCH, "link.deck"), os.path.join(SCRATCH, "behind.deck")
+    pipe = os.path.join(SCRATCH, "pipe")
+    for path in (link, behind, pipe):
+        if os.path.lexists(path):
+            os.unlink(path)
+    os.symlink("behind.deck", link)
+    made = command("flexmech-import", "-o", link, "--force", source)
+    if made.returncode or not os.path.islink(link) or not os.path.isfile(behind):
+        return made.stderr or "the link was replaced"
+    os.mkfifo(pipe)
+    with subprocess.Popen(["cat", pipe], stdout=subprocess.PIPE, text=True) as reader:
+        made = command("flexmech-import", "-o", pipe, "--force", source)
+        if os.path.isfile(pipe):
+            reader.kill()
+            return "a pipe was replaced by a file"
+        if made.returncode or not reader.communicate()[0].startswith("TITLE    crank_rocker\n"):
+            return made.stderr or "nothing came through the pipe"
+    path = os.path.join(SCRATCH, "nowhere", "a.deck")
+    made = command("flexmech-import", "-o", path, source)
+    return None if made.returncode == 2 and made.stderr == f"flexmech-import: {path}: No such file or directory\n" else made.stderr
+
+
+def odd_letters():
+    """Half letters and control characters of names and files do no harm; nor does a terminal of another encoding."""
+    with open(os.path.join(FOLDER, "crank_rocker.linkage2"), "rb") as file:
+        text = file.read()
+    for name in (b"l\xe9vier.linkage2", b"a\nEND\n.linkage2"):
+        path = os.path.join(os.fsencode(SCRATCH), name)
+        with open(path, "wb") as file:
+            file.write(text)
+        made = command("flexmech-import", path)
+        if made.returncode or not re.match(r"TITLE    [^\n]*\n\n! From [^\n]*, by flexmech-import\.\n", made.stdout):
+            return made.stderr or made.stdout
+    with open(os.path.join(FOLDER, "pylinkage.json"), encoding="utf-8") as file:
+        text = file.read()
+    for title in ('"\\ud800 four\\u0000bar"', "4.5"):
+        path = os.path.join(SCRATCH, "odd.json")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace('"four bar"', title, 1))
+        made = command("flexmech-import", path)
+        if made.returncode or not made.stdout.startswith(("TITLE    ? four bar\n", "TITLE    4.5\n")):
+            return made.stderr or made.stdout
+    made = subprocess.run([os.path.join("exchange", "flexmech-import"), "-"], capture_output=True, check=False, input=text.replace("four bar", "bière").encode(),
+                          env={**os.environ, "FLEXMECH": PROGRAM, "PYTHONIOENCODING": "ascii"})
+    return None if made.stdout.startswith("TITLE    bière\n".encode()) else made.stderr.decode() or made.stdout.decode()
 
 
 def wrong_words():
@@ -397,7 +449,7 @@ def main():
         check(f"motion of {file}", follows, name, places)
     for name, (text, told) in REFUSED.items():
         check(f"refused: {name}", refused, text, told)
-    for test in (document, no_overwriting, wrong_words, address_in_place, positions, dxf_lines, svg_size, export_refused, export_laws_and_structures, options_of_help):
+    for test in (document, no_overwriting, places_to_write, odd_letters, wrong_words, address_in_place, positions, dxf_lines, svg_size, export_refused, export_laws_and_structures, options_of_help):
         check(test.__name__.replace("_", " "), test)
 
 
