@@ -247,6 +247,7 @@ contains
 
     type(space_t) :: space
     complex(wp), allocatable :: values(:), vectors(:, :), weights(:), partner_weights(:)
+    complex(wp), allocatable :: best(:) !! weights of the mode, as far as it is not described
     complex(wp) :: fixed, expected, followed, followed_partner, second
     complex(wp) :: square, square_before
     real(wp), dimension(equation%grid%samples, 2*equation%grid%unknowns) :: residual, correction
@@ -275,49 +276,55 @@ contains
       else
         call find_pencil_modes(space%form(:space%number, :space%number, :), fixed, values, vectors)
       end if
-      if (size(values) == 0) return
+      if (size(values) == 0) exit
       number = minloc(distance(values, vectors, expected), dim=1)
       followed = values(number)
-      weights = vectors(:, number)
       partner = number
       if (.not. damped .and. abs(real(followed)) > off_circle) &
         partner = minloc(abs(values + conjg(followed)), dim=1)
-      if (damped) partner = maxloc(abs(matmul(conjg(matmul(slope_of_form(followed), weights)), &
-        vectors)), dim=1, mask=abs(aimag(values - followed)) < together)
+      if (damped) partner = maxloc(abs(matmul(conjg(matmul(slope_of_form(followed), &
+        vectors(:, number))), vectors)), dim=1, mask=abs(aimag(values - followed)) < together)
       if (present(pair)) partner = minloc(distance(values, vectors, second), dim=1, &
         mask=[(p /= number, p=1, size(values))])
-      if (partner == 0) return
+      if (partner == 0) exit
       followed_partner = values(partner)
+      weights = vectors(:, number)
       partner_weights = vectors(:, partner)
       here = followed
       if (present(pair)) pair%exponent = [followed, followed_partner]
       if (space%is_harmonic .and. .not. (damped .and. present(pair))) call take_value_of_form
       ! A mode may take half a minute.
       if (was_interrupted()) exit
-      call find_residual(here, weights, residual)
-      call approximate(residual, correction)
-      error = doubt()
-      idle = idle + 1
-      if (error < better_by*mode%change .or. error <= tolerance .or. present(pair)) then
-        mode%exponent = here
-        mode%change = error
-        idle = 0
-        call describe(weights)
-      end if
       if (present(pair)) then
         square_before = square
         square = (pair%exponent(1) - pair%exponent(2))**2
         pair%change = abs(square - square_before)
         if (round > 1 .and. pair%change <= max(pair%tolerance, least_square_change)) exit
-      else if (error <= tolerance .or. idle == most_idle) then
-        exit
+      end if
+      call find_residual(here, weights, residual)
+      call approximate(residual, correction)
+      ! A pair has no use for what one motion allows to be wrong.
+      if (.not. present(pair)) then
+        error = doubt()
+        idle = idle + 1
+        if (error < better_by*mode%change .or. error <= tolerance) then
+          mode%exponent = here
+          mode%change = error
+          idle = 0
+          best = weights
+        end if
+        if (error <= tolerance .or. idle == most_idle) exit
       end if
       if (round == rounds_of_projection(merge(2, 1, damped))) then
+        call describe
         call gather(weights, partner_weights)
         if (.not. present(pair) .and. mode%change < shift) fixed = mode%exponent + shift
         call make_harmonic
       end if
-      if (space%number > most_vectors - 2) call gather(weights, partner_weights)
+      if (space%number > most_vectors - 2) then
+        call describe
+        call gather(weights, partner_weights)
+      end if
       grew = .false.
       if (partner /= number) then
         call add_vector(correction, grew)
@@ -327,7 +334,8 @@ contains
       call add_vector(correction, grew)
       if (.not. grew) exit
     end do
-    if (present(pair)) call remember
+    call describe
+    if (present(pair) .and. allocated(weights)) call remember
 
   contains
 
@@ -576,6 +584,9 @@ contains
         parts(equation%grid%samples, 2*equation%grid%unknowns, 0:1)
       integer :: n
 
+      ! On the circle it is that of the mode itself.
+      left = residual
+      if (partner == number .and. .not. damped .and. abs(real(here)) <= off_circle) return
       call find_residual(-conjg(here), partner_weights, left)
       if (.not. damped) return
       n = equation%grid%unknowns
@@ -676,26 +687,26 @@ contains
       end do
     end subroutine find_residual
 
-    !> Frequency and action of the mode.
-    subroutine describe(weights)
-      complex(wp), intent(in) :: weights(:)
-
+    !> Motion, frequency and action of the mode, before the space in which it is changes.
+    subroutine describe
       real(wp), dimension(equation%grid%samples, 2*equation%grid%unknowns) :: z, first, second
       complex(wp) :: kinetic
       integer :: i
 
-      z = motion_of(weights)
+      if (.not. allocated(best)) return
+      z = motion_of(best)
       first = 0.0_wp
       second = 0.0_wp
-      do i = 1, size(weights)
-        call add_times(weights(i), space%parts(:, :, 1, i), first)
-        call add_times(weights(i), space%parts(:, :, 2, i), second)
+      do i = 1, size(best)
+        call add_times(best(i), space%parts(:, :, 1, i), first)
+        call add_times(best(i), space%parts(:, :, 2, i), second)
       end do
       mode%motion = z
       kinetic = product_of(z, second)
       mode%frequency = abs(equation%speed)*norm2(z)/sqrt(max(real(kinetic), tiny(1.0_wp)))
       mode%action = aimag(product_of(z, first) + 2.0_wp*mode%exponent*kinetic)/ &
         (2.0_wp*norm2(z)*sqrt(max(real(kinetic), tiny(1.0_wp))))
+      deallocate (best)
     end subroutine describe
 
   end subroutine refine
