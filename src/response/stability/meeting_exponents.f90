@@ -9,6 +9,7 @@ module meeting_exponents
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
   use interruption, only: was_interrupted
   use kinds, only: wp
+  use motion_tables, only: motion_table_t
   use multiplier_stations, only: left_of, plane_t, state_of
   use order_transfer, only: transferred_halves
   use response_levels, only: level_t, set_equation
@@ -57,6 +58,7 @@ module meeting_exponents
     type(stability_request_t), pointer :: request => null()
     type(level_t), pointer :: level => null()
     integer :: slow = 0               !! coordinates
+    type(motion_table_t), pointer :: table => null() !! not by the whole equation: of slow motions
     logical :: whole = .false.        !! by the whole equation
     type(meeting_t) :: meeting
     type(fourier_plan_t) :: plan      !! open
@@ -80,7 +82,7 @@ module meeting_exponents
 contains
 
   !> Makes the exponents of a meeting ready for evaluation on a level.
-  subroutine open_pair(request, level, slow, meeting, whole, pair)
+  subroutine open_pair(request, level, slow, meeting, whole, pair, table)
     type(stability_request_t), intent(in), target :: request !! damping, terms
     type(level_t), intent(in), target :: level               !! with the slow coordinates
     integer, intent(in) :: slow                              !! their number
@@ -89,7 +91,9 @@ contains
     logical, intent(in) :: whole                             !! by the whole equation, else by the
                                                              !! slow motion
     type(meeting_pair_t), intent(out) :: pair                !! to be closed
+    type(motion_table_t), intent(in), target, optional :: table !! of the level; absent: none
 
+    if (present(table)) pair%table => table
     pair%request => request
     pair%level => level
     pair%slow = slow
@@ -184,7 +188,8 @@ contains
 
     type(turn_spectrum_t) :: spectrum
 
-    call find_spectrum(self%level, self%plan, self%slow, speed, spectrum, self%error)
+    call find_spectrum(self%level, self%plan, self%slow, speed, spectrum, self%error, &
+      table=self%table)
     self%spectrum = spectrum
   end subroutine find_its_spectrum
 

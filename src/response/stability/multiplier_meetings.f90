@@ -7,11 +7,13 @@ module multiplier_meetings
   use constants, only: pi
   use errors, only: error_of_numerics, error_t
   use exponent_meetings, only: find_closest
+  use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
   use interruption, only: was_interrupted
   use kinds, only: wp
   use link_store, only: link_store_t
   use meeting_exponents, only: bound_growth, close_pair, find_numbers, meeting_pair_t, meeting_t, &
     open_pair
+  use motion_tables, only: least_speeds, motion_table_t, new_motion_table, table_width
   use multiplier_stations, only: match_stations, new_station, plane_of, plane_t, station_t
   use refinements, only: most_samples, sample_numbers
   use response_levels, only: level_slot_t, need_basis, need_level
@@ -19,7 +21,7 @@ module multiplier_meetings
   use structures, only: structure_t
   use text, only: to_string
   use turn_grids, only: turn_grid_t
-  use turn_spectra, only: first_order, first_samples, slow_number
+  use turn_spectra, only: first_order, first_samples, slow_number, usual_stages
   implicit none (type, external)
   private
 
@@ -79,6 +81,14 @@ module multiplier_meetings
     character(len=80) :: fault = ""
   end type step_t
 
+  !> Speeds whose slow motions come from one table: from a station, found by itself, to the first of
+  !! the next run.
+  type :: run_t
+    integer :: first = 0, last = 0 !! numbers of its speeds
+    type(station_t) :: begin
+    type(step_t), allocatable :: steps(:)
+  end type run_t
+
   !> An interval whose other edge is not reached yet.
   type :: open_t
     integer :: pair(2) = 0             !! vibrations at the station reached
@@ -105,12 +115,13 @@ contains
     type(error_t), allocatable, intent(out) :: error !! why there are none
 
     type(level_slot_t), allocatable, target :: levels(:)
-    type(station_t), allocatable :: stations(:)
+    type(run_t), allocatable :: runs(:)
+    type(station_t) :: last
     type(step_t), allocatable :: steps(:)
     type(meeting_t), allocatable :: grown(:)
     real(wp), allocatable :: speeds(:)
     real(wp) :: from, range(2), fastest
-    integer :: i, k, number(size(sample_numbers)), round, slow
+    integer :: i, k, number(size(sample_numbers)), slow
 
     allocate (levels(0), meetings(0))
     ! By the slow motion meetings are a little beside where they are.
@@ -131,29 +142,28 @@ contains
         speeds = [speeds, min(speed + step_at(speed), range(2))]
       end associate
     end do
-    allocate (stations(size(speeds)))
+    call divide_range
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k)
-    do k = 1, size(speeds)
-      if (.not. was_interrupted()) call find_station(speeds(k), stations(k))
+    do k = 1, size(runs)
+      if (.not. was_interrupted()) call find_station(speeds(runs(k)%first), runs(k)%begin)
     end do
     !$omp end parallel do
-    allocate (steps(size(speeds) - 1))
-    do k = 1, size(steps)
-      steps(k)%left = stations(k)
-      steps(k)%right = stations(k + 1)
+    call find_station(speeds(size(speeds)), last)
+    !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k)
+    do k = 1, size(runs)
+      if (was_interrupted()) cycle
+      if (k < size(runs)) call follow(runs(k), runs(k + 1)%begin)
+      if (k == size(runs)) call follow(runs(k), last)
     end do
-    do round = 0, most_halvings
-      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k)
-      do k = 1, size(steps)
-        if (steps(k)%pending .and. .not. was_interrupted()) call look_between(steps(k), &
-          round == most_halvings)
-      end do
-      !$omp end parallel do
-      steps%pending = .not. steps%good .and. steps%pending
-      if (.not. any(steps%pending) .or. round == most_halvings .or. was_interrupted()) exit
-      call halve
-    end do
+    !$omp end parallel do
     if (was_interrupted()) return
+    allocate (steps(sum([(size(runs(k)%steps), k=1, size(runs))])))
+    i = 0
+    do k = 1, size(runs)
+      steps(i + 1:i + size(runs(k)%steps)) = runs(k)%steps
+      i = i + size(runs(k)%steps)
+      deallocate (runs(k)%steps)
+    end do
     call extend(.false.)
     call extend(.true.)
     found%stations = size(steps) + 1
@@ -235,13 +245,77 @@ contains
       step = speed*min(step_share, step_turns/max(fastest/speed, tiny(1.0_wp)))
     end function step_at
 
-    subroutine find_station(speed, station)
+    !> Divides the range of speeds into runs.
+    subroutine divide_range
+      integer :: k
+
+      allocate (runs(0))
+      do k = 1, size(speeds) - 1
+        if (size(runs) > 0) then
+          if (speeds(k + 1) <= (1.0_wp + table_width)*speeds(runs(size(runs))%first) .and. &
+            level_for(speeds(k)) == level_for(speeds(runs(size(runs))%first))) then
+            runs(size(runs))%last = k + 1
+            cycle
+          end if
+        end if
+        runs = [runs, run_t(first=k, last=k + 1)]
+      end do
+    end subroutine divide_range
+
+    !> Finds the stations of a run, and looks into the steps between them.
+    subroutine follow(run, end)
+      type(run_t), intent(inout) :: run
+      type(station_t), intent(in) :: end !! the first of the next run
+
+      type(motion_table_t), allocatable, target :: table !! none: absent
+      integer :: k, n, round
+
+      n = run%last - run%first
+      if (n >= least_speeds) then
+        allocate (table)
+        call make_table(speeds(run%first), speeds(run%last), table)
+      end if
+      allocate (run%steps(n))
+      run%steps(1)%left = run%begin
+      run%steps(n)%right = end
+      do k = 2, n
+        if (was_interrupted()) return
+        call find_station(speeds(run%first + k - 1), run%steps(k)%left, table)
+        run%steps(k - 1)%right = run%steps(k)%left
+      end do
+      do round = 0, most_halvings
+        do k = 1, size(run%steps)
+          if (was_interrupted()) return
+          if (run%steps(k)%pending) call look_between(run%steps(k), round == most_halvings, table)
+        end do
+        run%steps%pending = .not. run%steps%good .and. run%steps%pending
+        if (.not. any(run%steps%pending) .or. round == most_halvings) exit
+        call halve(run%steps, table)
+      end do
+    end subroutine follow
+
+    subroutine make_table(from, to, table)
+      real(wp), intent(in) :: from, to
+      type(motion_table_t), intent(out) :: table
+
+      type(fourier_plan_t) :: plan
+
+      associate (level => levels(level_for(from))%level)
+        call open_fourier(level%grid%samples, plan)
+        call new_motion_table(plan, level%basis(slow), from, to, usual_stages, table)
+        call close_fourier(plan)
+      end associate
+    end subroutine make_table
+
+    subroutine find_station(speed, station, table)
       real(wp), intent(in) :: speed
       type(station_t), intent(out) :: station
+      type(motion_table_t), intent(in), target, optional :: table !! absent: none
 
       type(meeting_pair_t) :: pair
 
-      call open_pair(request, levels(level_for(speed))%level, slow, meeting_t(), .false., pair)
+      call open_pair(request, levels(level_for(speed))%level, slow, meeting_t(), .false., pair, &
+        table)
       call pair%find_spectrum(speed)
       if (.not. allocated(pair%error)) call new_station(pair%spectrum, speed, station)
       station%speed = speed
@@ -249,26 +323,23 @@ contains
     end subroutine find_station
 
     !> Puts stations into steps that are not good.
-    subroutine halve
+    subroutine halve(steps, table)
+      type(step_t), allocatable, intent(inout) :: steps(:)
+      type(motion_table_t), intent(in), target, optional :: table !! absent: none
+
       type(step_t), allocatable :: halves(:)
-      type(station_t), allocatable :: middle(:)
       integer :: j, k
 
-      allocate (middle(size(steps)), halves(size(steps) + count(steps%pending)))
-      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k)
-      do k = 1, size(steps)
-        if (steps(k)%pending) call find_station(0.5_wp*(steps(k)%left%speed + &
-          steps(k)%right%speed), middle(k))
-      end do
-      !$omp end parallel do
+      allocate (halves(size(steps) + count(steps%pending)))
       j = 0
       do k = 1, size(steps)
         j = j + 1
         if (steps(k)%pending) then
           halves(j)%left = steps(k)%left
-          halves(j)%right = middle(k)
+          call find_station(0.5_wp*(steps(k)%left%speed + steps(k)%right%speed), halves(j)%right, &
+            table)
           j = j + 1
-          halves(j)%left = middle(k)
+          halves(j)%left = halves(j - 1)%right
           halves(j)%right = steps(k)%right
         else
           halves(j) = steps(k)
@@ -278,9 +349,10 @@ contains
     end subroutine halve
 
     !> Finds each multiplier of a station again at the next, and looks into meetings between.
-    subroutine look_between(step, is_last)
+    subroutine look_between(step, is_last, table)
       type(step_t), intent(inout) :: step
       logical, intent(in) :: is_last !! it will not be halved any more
+      type(motion_table_t), intent(in), target, optional :: table !! absent: none
 
       real(wp), allocatable :: change(:)
       real(wp) :: total(2)
@@ -322,7 +394,7 @@ contains
           good = ceiling(minval(total)) == floor(maxval(total)) .and. &
             step%left%met(i) + step%left%met(j) + sum(step%right%met(to)) == 0
           if (good .and. .not. is_last) good = is_smooth(step, [i, j], total(2) - total(1))
-          if (good) call look_into(step, [i, j], to, total - ceiling(minval(total)), good)
+          if (good) call look_into(step, [i, j], to, total - ceiling(minval(total)), good, table)
           if (good) cycle
           step%fault = "two multipliers meet near others"
           return
@@ -373,11 +445,12 @@ contains
     end function may_be_wanted
 
     !> Growth and place of the meeting of two vibrations between stations.
-    subroutine look_into(step, left, right, total, good)
+    subroutine look_into(step, left, right, total, good, table)
       type(step_t), intent(inout) :: step
       integer, intent(in) :: left(2), right(2) !! their numbers at both stations
       real(wp), intent(in) :: total(2)         !! sums of angles there, but for a whole number
       logical, intent(out) :: good             !! it was found
+      type(motion_table_t), intent(in), target, optional :: table !! absent: none
 
       type(meeting_t) :: meeting
       type(meeting_pair_t) :: pair
@@ -391,7 +464,7 @@ contains
       length = step%right%speed - step%left%speed
       meeting%at = step%left%speed - total(1)/(total(2) - total(1))*length
       call open_pair(request, levels(level_for(step%left%speed))%level, slow, meeting, .false., &
-        pair)
+        pair, table)
       good = .true.
       width = 0.0_wp
       call bound_growth(pair, meeting%at, step%left%rate(left)/abs(step%left%slope(left)), &

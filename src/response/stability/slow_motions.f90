@@ -21,8 +21,8 @@ module slow_motions
   implicit none (type, external)
   private
 
-  public :: slow_motion_t, new_slow_motion, solve_slow, slow_mode_t, slow_modes, slow_mode_shape, &
-    solve_slow_shifted, add_shape_frequencies
+  public :: slow_motion_t, new_slow_motion, find_monodromy, solve_slow, slow_mode_t, slow_modes, &
+    slow_mode_shape, solve_slow_shifted, add_shape_frequencies
 
   !> Free motions that grow by more than this in a turn leave no digits of a periodic one; within
   !! the turn they may grow until numbers nearly overflow.
@@ -71,7 +71,7 @@ contains
     type(slow_motion_t), intent(out) :: motion
     type(error_t), allocatable, intent(out) :: error !! why it cannot be closed
 
-    integer :: i, k, m, n, info
+    integer :: i, m, n, info
 
     n = plan%samples
     m = basis%number
@@ -80,6 +80,28 @@ contains
     motion%rule = new_collocation(stages)
     allocate (motion%transfer(2*m, 2*m, n), motion%inner(2*m, m*(stages - 1), n))
     call make_steps(basis, speed, motion)
+    call find_monodromy(motion, error)
+    if (allocated(error)) return
+    motion%factor = -motion%monodromy
+    do i = 1, 2*m
+      motion%factor(i, i) = 1.0_wp + motion%factor(i, i)
+    end do
+    allocate (motion%pivot(2*m))
+    call dgetrf(2*m, 2*m, motion%factor, 2*m, motion%pivot, info)
+    if (info /= 0) call set_error(error, error_of_numerics, &
+      "resonance: the slow motion has a multiplier of 1")
+  end subroutine new_slow_motion
+
+  !> The monodromy matrix of all steps.
+  !!
+  !! Errors: the motion grows too much in a turn, and the matrix is not finished.
+  subroutine find_monodromy(motion, error)
+    type(slow_motion_t), intent(inout) :: motion !! with transfers
+    type(error_t), allocatable, intent(out) :: error
+
+    integer :: k, n
+
+    n = motion%steps
     motion%monodromy = motion%transfer(:, :, 1)
     do k = 2, n
       motion%monodromy = matmul(motion%transfer(:, :, k), motion%monodromy)
@@ -91,15 +113,7 @@ contains
         "its slowest motions alone do not show how it vibrates")
       return
     end do
-    motion%factor = -motion%monodromy
-    do i = 1, 2*m
-      motion%factor(i, i) = 1.0_wp + motion%factor(i, i)
-    end do
-    allocate (motion%pivot(2*m))
-    call dgetrf(2*m, 2*m, motion%factor, 2*m, motion%pivot, info)
-    if (info /= 0) call set_error(error, error_of_numerics, &
-      "resonance: the slow motion has a multiplier of 1")
-  end subroutine new_slow_motion
+  end subroutine find_monodromy
 
   !> All steps. Their matrices are functions of the crank angle, too: those of steps that are evenly
   !! spaced come from short transforms.

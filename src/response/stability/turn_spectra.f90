@@ -7,6 +7,7 @@ module turn_spectra
   use kinds, only: wp
   use link_store, only: link_store_t
   use mode_numbers, only: numbers_of
+  use motion_tables, only: is_in_table, motion_of_table, motion_table_t
   use refinements, only: most_samples, refinement_t, sample_numbers
   use response_levels, only: level_slot_t, level_t, need_basis, need_level, need_levels
   use slow_bases, only: own_squares
@@ -21,7 +22,7 @@ module turn_spectra
   private
 
   public :: turn_spectrum_t, find_spectrum, begin_refinements, set_too_slow, need_two_levels, &
-    first_order, first_samples, slow_number
+    first_order, first_samples, slow_number, usual_stages
 
   !> Slow coordinates beside those of the modes wanted, and at least; and all deformations up to so
   !! many times the frequency of these: alike links have as many alike ones, and without some of
@@ -174,7 +175,7 @@ contains
   !> Free motions of the slow coordinates of a level, with their numbers.
   !!
   !! Errors: they grow too much in a turn; their multipliers do not converge.
-  subroutine find_spectrum(level, plan, slow, speed, spectrum, error, stages)
+  subroutine find_spectrum(level, plan, slow, speed, spectrum, error, stages, table)
     type(level_t), intent(in) :: level               !! with this many slow coordinates
     type(fourier_plan_t), intent(in) :: plan         !! for its samples
     integer, intent(in) :: slow                      !! coordinates
@@ -182,12 +183,21 @@ contains
     type(turn_spectrum_t), intent(out) :: spectrum
     type(error_t), allocatable, intent(out) :: error
     integer, intent(in), optional :: stages          !! of the collocation; absent: usual ones
+    type(motion_table_t), intent(in), optional :: table !! where it has the speed, the steps are
+                                                        !! from it, for free motions only
 
+    logical :: known
     integer :: used
 
     used = usual_stages
     if (present(stages)) used = stages
-    call new_slow_motion(plan, level%basis(slow), speed, used, spectrum%motion, error)
+    known = .false.
+    if (present(table)) known = is_in_table(table, plan%samples, speed)
+    if (known) then
+      call motion_of_table(table, speed, spectrum%motion, error)
+    else
+      call new_slow_motion(plan, level%basis(slow), speed, used, spectrum%motion, error)
+    end if
     if (allocated(error)) return
     call slow_modes(level%basis(slow), spectrum%motion, spectrum%mode, error)
     if (allocated(error)) return
