@@ -3,7 +3,7 @@
 !! A factor is stored as a fraction of whole numbers (mm = 1/1000, in = 254/10000), so that 254 mm
 !! becomes the double nearest to 0.254 m and converts back to 254 mm.
 module units
-  use constants, only: pi
+  use constants, only: degree, pi
   use errors, only: error_of_input, error_t, set_error
   use kinds, only: wp
   use spelling, only: suggestion
@@ -12,7 +12,7 @@ module units
   private
 
   public :: unit_t, unit_system_t, dimension_name, wrong_unit, read_unit, new_unit_system, &
-    si_units, coherent_unit, coherent_factor, name_known, to_si, from_si, serves_for
+    si_units, coherent_unit, coherent_factor, name_known, to_si, from_si, in_degrees, serves_for
   public :: dimension_none, dimension_length, dimension_mass, dimension_time, dimension_angle, &
     dimension_rate
   public :: dimension_angular_acceleration, dimension_velocity, dimension_acceleration, &
@@ -551,7 +551,35 @@ contains
     type(unit_t), intent(in) :: measure !! the unit of the result
     real(wp) :: value
 
-    value = si*measure%denominator/measure%numerator
+    value = converted(si, measure%numerator, measure%denominator)
   end function from_si
+
+  !> An angle in degrees.
+  elemental function in_degrees(angle) result(value)
+    real(wp), intent(in) :: angle !! [rad]
+    real(wp) :: value
+
+    value = converted(angle, degree, 1.0_wp)
+  end function in_degrees
+
+  !> The decimal number of 15 digits that is `si` once it is converted, if there is one: 30 degrees
+  !! that are carried in radians are 30 again, not 29.999999999999996. Else the number itself.
+  elemental function converted(si, numerator, denominator) result(value)
+    real(wp), intent(in) :: si                     !! in SI units
+    real(wp), intent(in) :: numerator, denominator !! of the unit, as in `unit_t`
+    real(wp) :: value
+
+    ! Powers of ten up to the 22nd are doubles exactly.
+    integer, parameter :: digits = 15, largest_power = 22
+    real(wp) :: decimal
+    integer :: power
+
+    value = si*denominator/numerator
+    if (abs(numerator - denominator) <= 0.0_wp .or. abs(value) <= 0.0_wp) return
+    power = digits - 1 - floor(log10(abs(value)))
+    if (power < 0 .or. power > largest_power) return
+    decimal = anint(value*10.0_wp**power)/10.0_wp**power
+    if (abs(decimal*numerator/denominator - si) <= 0.0_wp) value = decimal
+  end function converted
 
 end module units

@@ -22,7 +22,7 @@ module frequency_report
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
   use tables, only: integer_cell, name_cell
   use text, only: append_string, string_t, to_string, trimmed_list
-  use units, only: to_si
+  use units, only: from_si, to_si, unit_t
   use value_lists, only: value_list_t, value_number
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -345,11 +345,31 @@ contains
         do i = 1, size(shape, 2)
           call add_row(rows, cells(layout, 1, place)//integer_cell(mode, "mode")// &
             cells(layout, 4, [frequency])//name_cell(variant%mechanism%names(link)%text, &
-            column_width(layout, 5))//cells(layout, 6, [station(:, i, part), shown_displacement( &
-            variant, shape(:, i, part, mode))]))
+            column_width(layout, 5))//cells(layout, 6, [distance(station(1, :, part), i), &
+            station(2:, i, part), shown_displacement(variant, shape(:, i, part, mode))]))
         end do
       end do
     end associate
+
+  contains
+
+    !> The distance along a link of one of equal parts, which is a share of a length in the unit of
+    !! the table, without the rounding of another.
+    pure function distance(along, i)
+      real(wp), intent(in) :: along(:) !! [m]
+      integer, intent(in) :: i
+      real(wp) :: distance
+
+      type(unit_t) :: length
+      real(wp) :: ends(2)
+
+      length = table_factor("length", variant%model%outputs)
+      associate (n => size(along))
+        ends = from_si(along([1, n]), length)
+        distance = to_si((ends(1)*(n - i) + ends(2)*(i - 1))/(n - 1), length)
+      end associate
+    end function distance
+
   end subroutine add_mode
 
   !> A displacement of a normalised mode, which has the unit mass^(-1/2), and a rotation.

@@ -216,7 +216,7 @@ contains
     type(crank_law_t), intent(in) :: law
     type(speed_transient_t), intent(inout) :: found
 
-    real(wp) :: interval, motion(0:2), last
+    real(wp) :: interval, motion(0:2), last, parts
     integer :: k
 
     if (allocated(law%program)) then
@@ -232,6 +232,11 @@ contains
       motion = crank_motion(law, found%time(k), found%time(k))
       found%crank(k) = motion(0)
       found%rate(k) = motion(1)
+      if (allocated(law%program) .or. law%ramp > 0.0_wp) cycle
+      ! Parts of a turn without the rounding of times; the last may be less than one.
+      parts = anint(found%time(k)/interval)
+      if (abs(found%time(k) - parts*interval) <= 0.0_wp) found%crank(k) = law%start + &
+        sign(360.0_wp, law%speed)*parts/request%instants
     end do
   end subroutine find_instants
 

@@ -1,7 +1,6 @@
 !> Coordinates of a moving linkage: rates, accelerations, what acts along them, ratios.
 module coordinate_study
   use applied_load_types, only: deflection
-  use constants, only: degree
   use coordinate_types, only: coordinate_t, is_distance, is_sum
   use coordinates, only: coordinate_acceleration, coordinate_rate, coordinate_value, is_turning
   use drive_values, only: drive_value
@@ -9,6 +8,7 @@ module coordinate_study
   use linkages, only: linkage_t
   use pose_types, only: kinematic_coefficients_t, pose_t
   use pull_laws, only: moving_pull, standing_pull
+  use units, only: in_degrees
   implicit none (type, external)
   private
 
@@ -55,7 +55,7 @@ contains
         state%value = drive_value(linkage, coordinate%drive, crank)
       else
         state%value = coordinate_value(linkage, pose, coordinate, crank)
-        if (is_turning(linkage, coordinate)) state%value = state%value/degree
+        if (is_turning(linkage, coordinate)) state%value = in_degrees(state%value)
       end if
       per = coordinate_rate(linkage, pose, coefficients, coordinate)
       state%rate = per*speed

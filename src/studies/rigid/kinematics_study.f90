@@ -1,12 +1,12 @@
 !> Kinematics at a position and speed: angles, angular velocities and accelerations of links, paths,
 !! velocities and accelerations of pins; of a four-bar in one row, with the transmission angle.
 module kinematics_study
-  use constants, only: degree
   use four_bar_loops, only: four_bar_t
   use kinds, only: wp
   use linkages, only: linkage_t
   use poses, only: angle_along, body_angle, transmission_angle
   use positions, only: positions_t, state_t
+  use units, only: in_degrees
   implicit none (type, external)
   private
 
@@ -36,9 +36,9 @@ contains
       values = [0.0_wp, h*speed, h*acceleration + slope*speed**2]
     end associate
     if (present(from)) then
-      values(1) = angle_along(linkage, state%pose, body, from)/degree
+      values(1) = in_degrees(angle_along(linkage, state%pose, body, from))
     else
-      values(1) = body_angle(linkage, state%pose, body)/degree
+      values(1) = in_degrees(body_angle(linkage, state%pose, body))
     end if
   end function link_at_speed
 
@@ -82,7 +82,7 @@ contains
     type(state_t), intent(in) :: state       !! with a pose
     real(wp) :: angle
 
-    angle = transmission_angle(linkage, state%pose, four_bar%dyad)/degree
+    angle = in_degrees(transmission_angle(linkage, state%pose, four_bar%dyad))
   end function transmission_at
 
   !> Takes the transmission angles at some positions into their range; of equal ones the first
