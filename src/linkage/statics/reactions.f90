@@ -8,6 +8,7 @@ module reactions
   use linkages, only: cross, linkage_t, reference_point
   use load_cases, only: case_count, find_case_loads, find_unit_loads, unit_loads_t
   use poses, only: pose_t
+  use rounded_sums, only: rounded_sum_t, without_rounding
   implicit none (type, external)
   private
 
@@ -63,21 +64,24 @@ contains
     type(pose_t), intent(in) :: pose
     type(load_t), intent(in) :: body_loads(:) !! (bodies)
     real(wp), intent(in) :: pin_loads(:, :)   !! (2, pins) [N]
-    type(reactions_t), intent(inout) :: total !! to which shaking force and moment are added
+    type(reactions_t), intent(inout) :: total !! gets shaking force and moment
 
+    type(rounded_sum_t) :: force(2), moment
     real(wp) :: pivot(2)
     integer :: i
 
     pivot = reference_point(linkage)
     do i = 1, size(body_loads)
-      total%shaking_force = total%shaking_force + body_loads(i)%force
-      total%shaking_moment = total%shaking_moment + body_loads(i)%moment + &
-        cross(pose%pin(:, linkage%bodies(i)%first_pin) - pivot, body_loads(i)%force)
+      call force%add(body_loads(i)%force)
+      call moment%add(body_loads(i)%moment)
+      call moment%add(cross(pose%pin(:, linkage%bodies(i)%first_pin) - pivot, body_loads(i)%force))
     end do
     do i = 1, size(pin_loads, 2)
-      total%shaking_force = total%shaking_force + pin_loads(:, i)
-      total%shaking_moment = total%shaking_moment + cross(pose%pin(:, i) - pivot, pin_loads(:, i))
+      call force%add(pin_loads(:, i))
+      call moment%add(cross(pose%pin(:, i) - pivot, pin_loads(:, i)))
     end do
+    total%shaking_force = without_rounding(force)
+    total%shaking_moment = without_rounding(moment)
   end subroutine add_up
 
 end module reactions

@@ -4,6 +4,7 @@ module four_bar_reactions
   use four_bar_loops, only: four_bar_t
   use joint_study, only: joint_t, joints_at_speed, joints_result_t
   use kinds, only: wp
+  use rounded_sums, only: rounded_sum_t, without_rounding
   implicit none (type, external)
   private
 
@@ -28,19 +29,19 @@ contains
     integer, intent(in) :: number              !! of the speed, for loads that depend on it
     real(wp) :: values(reaction_values)
 
+    type(rounded_sum_t) :: sums(torque_value:reaction_values)
     real(wp) :: factor(3)
     integer :: k
 
-    values = 0.0_wp
     values(:pin_forces) = pin_forces_of(four_bar, found%joints, joints_at_speed(found, &
       state, speed, acceleration, number))
     factor = [speed**2, acceleration, 1.0_wp]
     do k = 1, 3
-      values(torque_value:) = values(torque_value:) + factor(k)*[found%drive(1, k, state), &
-        found%shaking(:, k, state)]
+      call sums%add(factor(k)*[found%drive(1, k, state), found%shaking(:, k, state)])
     end do
-    if (size(found%running_drive, 2) > 0) values(torque_value) = values(torque_value) + &
-      found%running_drive(1, number, state)
+    if (size(found%running_drive, 2) > 0) call sums(torque_value)%add(found%running_drive(1, &
+      number, state))
+    values(torque_value:) = without_rounding(sums)
   end function reactions_at_speed
 
   !> x and y of the forces in the pins of the loop, in the order of `reactions_at_speed` [N].

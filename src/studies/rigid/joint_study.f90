@@ -25,6 +25,7 @@ module joint_study
   use pose_types, only: pins_of_body, pose_t
   use position_loads, only: find_position_loads, find_speed_loads, position_loads_t
   use positions, only: positions_t, state_t
+  use rounded_sums, only: rounded_sum_t, without_rounding
   use running_loads, only: depends_on_speed, lock_of, lock_t, running_t
   implicit none (type, external)
   private
@@ -462,20 +463,21 @@ contains
                                                !! absent: `reference_point` [m]
     real(wp) :: values(6)                      !! fx, fy, moment, twice [N, N m]
 
+    type(rounded_sum_t) :: sums(6)
     real(wp) :: factor(case_count), arm(2)
     integer :: k
 
     factor = [speed**2, acceleration, 1.0_wp]
-    values = 0.0_wp
     do k = 1, case_count
-      values = values + factor(k)*[found%shaking(:, k, state), found%frame(:, k, state)]
+      call sums%add(factor(k)*[found%shaking(:, k, state), found%frame(:, k, state)])
     end do
-    if (size(found%running_frame, 2) > 0) values(4:) = values(4:) + found%running_frame(:, number, &
-      state)
-    if (.not. present(about)) return
-    arm = reference_point(linkage) - about
-    values(3) = values(3) + cross(arm, values(:2))
-    values(6) = values(6) + cross(arm, values(4:5))
+    if (size(found%running_frame, 2) > 0) call sums(4:)%add(found%running_frame(:, number, state))
+    if (present(about)) then
+      arm = reference_point(linkage) - about
+      call sums(3)%add(cross(arm, sums(:2)%value))
+      call sums(6)%add(cross(arm, sums(4:5)%value))
+    end if
+    values = without_rounding(sums)
   end function frame_at_speed
 
   !> Position, rate and force of every drive at a position and speed, or of the actuators that give
