@@ -11,7 +11,7 @@ $(foreach name,$(.VARIABLES),$(if $(findstring command,$(origin $(name))),$(eval
 ifeq ($(origin FC),default)
 FC = gfortran
 endif
-export FC
+export FC CXX
 BLAS   ?= reference
 export BLAS
 # MPI=yes: the program for several processes, too. Its compiler is a wrapper around FC.

@@ -27,7 +27,8 @@ else
 libraries := $(call archive,libarpack.a) $(call archive,lapack/liblapack.a liblapack.a) $(call archive,blas/libblas.a libblas.a)
 endif
 integration := $(call archive,libgsl.a) -lm
-libraries += $(integration)
+# What finds the digits of numbers: from version 11 of libstdc++ on.
+libraries += $(integration) $(or $(call archive,libstdc++.a),-lstdc++)
 # Quadruple precision: the same sources, but for the modules that tests/quad/ has instead, among them the part of LAPACK in use.
 ifeq ($(kind),quad)
 libraries := $(integration)
@@ -37,7 +38,7 @@ endif
 # Sources lie in folders and in folders of these. File = module, so the objects of all can lie in one folder.
 found   := $(filter-out %/ranks_mpi.f90,$(wildcard src/*.f90 src/*/*.f90 src/*/*/*.f90))
 sources := $(filter-out $(addprefix %/,$(notdir $(instead))),$(found)) $(instead)
-modules := $(patsubst %.f90,$(build)/%.o,$(filter-out main.f90,$(notdir $(sources))))
+modules := $(patsubst %.f90,$(build)/%.o,$(filter-out main.f90,$(notdir $(sources)))) $(if $(instead),,$(build)/shortest_digits.o)
 # What only tests use; modules of the quadruple build that the others do not have are among them.
 test_sources := $(filter-out $(addprefix %/,$(notdir $(sources)) funit.f90),$(wildcard tests/quad/*.f90 $(support)/*.f90))
 test_modules := $(patsubst %.f90,$(build)/%.o,$(notdir $(test_sources)))
@@ -62,12 +63,18 @@ $(told): private FFLAGS := $(subst -O3,-O1,$(flags_$(kind)))
 # remember FILE,TEXT: write the file only when the text is new, so that what depends on it is made again just then.
 # The rules without commands say that the files are there: make may have listed the folder before they were.
 remember = $(if $(subst x$(file <$(1)),,x$(2)),$(file >$(1),$(2)))
-$(call remember,$(build)/command,$(compile) $(options) $(libraries) $(told))
+compile_c++ = $(CXX) -std=c++17 -O2 -fno-exceptions -fno-rtti
+$(call remember,$(build)/command,$(compile) $(options) $(libraries) $(told) $(compile_c++))
 $(build)/command: ;
 
 $(build)/%.o: %.f90 $(build)/command
 	@echo "$(FC) ($(kind)) $<"
 	$(compile) $(options) -c $< -o $@
+
+# The one file that is not Fortran.
+$(build)/shortest_digits.o: src/base/words/shortest_digits.cpp $(build)/command
+	@echo "$(CXX) ($(kind)) $<"
+	$(compile_c++) -c $< -o $@
 
 $(build)/flexmech: $(modules) $(build)/main.o
 	@echo "link $@"

@@ -3,12 +3,13 @@ module command_line
   use durations, only: read_duration
   use errors, only: error_of_input, error_t, set_error
   use kinds, only: wp
+  use number_text, only: most_digits
   use numbers, only: read_integer
   use option_table, only: choices_of, column_of_help, option_names, options, takes_value
   use program_version, only: program_name, version_number
   use spelling, only: suggestion
   use study_parts, only: part_t, read_part
-  use text, only: joined, same_word, string_t, word_list
+  use text, only: joined, same_word, string_t, to_string, word_list
   use tokens, only: check_name
   implicit none (type, external)
   private
@@ -31,6 +32,7 @@ module command_line
     real(wp) :: most_time = huge(1.0_wp)       !! the same [s]
     logical :: csv = .false.                   !! tables as comma-separated values too
     logical :: csv_only = .false.              !! and not as plain text
+    integer :: digits = 0                      !! of numbers in tables; 0: as the decks say
     logical :: stats = .false.
     logical :: json = .false.
     logical :: help = .false.
@@ -96,15 +98,21 @@ contains
     type(command_t), intent(in) :: command
     type(error_t), allocatable, intent(inout) :: error
 
+    character(len=*), parameter :: of_tables(2) = ["--format", "--digits"]
+    integer :: i
+
     if (command%part%count > 0 .and. command%join) then
       call set_error(error, error_of_input, &
         "options --part and --join exclude each other: parts are computed one by one, then joined")
     else if (command%join .and. command%resume) then
       call set_error(error, error_of_input, &
         "option --resume has no meaning with --join: it computes nothing")
-    else if (command%part%count > 0 .and. index(command%valued, " --format ") > 0) then
-      call set_error(error, error_of_input, "option --format has no meaning with --part: "// &
-        "a part has no tables; give it with --join")
+    else if (command%part%count > 0) then
+      do i = 1, size(of_tables)
+        if (index(command%valued, " "//of_tables(i)//" ") > 0) call set_error(error, &
+          error_of_input, "option "//of_tables(i)//" has no meaning with --part: "// &
+          "a part has no tables; give it with --join")
+      end do
     end if
   end subroutine check_parts
 
@@ -261,6 +269,11 @@ contains
       command%csv_only = value == "csv-only"
       command%csv = value == "csv" .or. command%csv_only
       call check_choice(name, "format", value, error)
+    case ("--digits")
+      call read_integer(value, command%digits, not_a_number)
+      if (allocated(not_a_number) .or. command%digits < 1 .or. command%digits > most_digits) &
+        call set_error(error, error_of_input, "option --digits needs a number from 1 to "// &
+        to_string(most_digits)//", not '"//value//"'")
     case ("--part")
       call read_part(value, command%part, error)
     case ("--time-limit")

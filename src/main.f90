@@ -74,6 +74,7 @@ program main
   options%csv = command%csv
   options%figures = command_for_figures(command%program, command%search_path)
   options%csv_only = command%csv_only
+  options%digits = command%digits
   options%part = command%part
   options%join = command%join
   if (allocated(command%limit)) options%limit = command%limit

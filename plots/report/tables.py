@@ -10,9 +10,9 @@ PLACES = ("time", "speed", "crank", "mode", "mass", "element")
 FIRST_OWN = ("speed", "crank", "time", "branch", "from", "part", "rows")
 
 
-# As the program writes them: a name may be 007 or inf.
-REAL = re.compile(r"-?\d\.\d+E[-+]\d+")
-NUMBER = re.compile(rf"{REAL.pattern}|-?\d+")
+# As this program and earlier ones write them: a name may be 007 or inf.
+REAL = re.compile(r"-?(?:0|[1-9]\d*)(?=[.eE])(?:\.\d+)?(?:[eE][-+]\d+)?")
+NUMBER = re.compile(rf"{REAL.pattern}|-?(?:0|[1-9]\d*)")
 
 
 def shown(cell):

@@ -1,7 +1,8 @@
-!> The units in which results are given: those of the deck where they have a name, else those
-!! customary for the quantity. What bare numbers of a deck mean is not affected.
+!> The units in which results are given, and their digits: the units of the deck where they have a
+!! name, else those customary for the quantity. What bare numbers of a deck mean is not affected.
 module output_units
   use errors, only: error_t
+  use number_text, only: most_digits
   use natures, only: nature_t
   use units, only: coherent_unit, dimension_force, dimension_moment, dimension_rate, &
     dimension_stress, dimension_time, name_known, read_unit, unit_system_t, unit_t
@@ -18,6 +19,7 @@ module output_units
     type(unit_t) :: moment        !! and torque
     type(unit_t) :: energy
     type(unit_t) :: rate          !! angular velocity
+    integer :: digits = most_digits !! significant ones of the numbers in tables
   end type output_units_t
 
 contains

@@ -28,6 +28,8 @@ module option_table
     option_t("--threads", "N", help="compute N positions at a time (1)"), &
     option_t("--format", "FORM", choices="plain csv csv-only", &
       help="csv: comma-separated tables beside the plain ones; csv-only: only those (plain)"), &
+    option_t("--digits", "N", &
+      help="round what tables show to N significant digits, 1 to 17 (17: all)"), &
     option_t("--resume", &
       help="continue where an earlier run of the deck was killed or interrupted"), &
     option_t("--time-limit", "TIME", &

@@ -1,9 +1,8 @@
 !> Values as JSON (RFC 8259).
 module json_text
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use errors, only: error_t
   use kinds, only: long, wp
-  use numbers, only: read_real
+  use number_text, only: real_cells
   use text, only: character_length, replacement, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   implicit none (type, external)
@@ -83,22 +82,13 @@ contains
     value = to_string(number)
   end function json_long
 
-  !> The shortest of 15 to 17 digits that read back to the same value; `null` if not finite.
+  !> `null` if not finite.
   pure function json_number(number) result(value)
     real(wp), intent(in) :: number
     character(len=:), allocatable :: value
 
-    type(error_t), allocatable :: error
-    real(wp) :: back
-    integer :: digits
-
     value = json_null
-    if (.not. ieee_is_finite(number)) return
-    do digits = precision(number), precision(number) + 2
-      value = to_string(number, digits)
-      call read_real(value, back, error)
-      if (.not. allocated(error) .and. .not. abs(back - number) > 0.0_wp) return
-    end do
+    if (ieee_is_finite(number)) value = trim(adjustl(real_cells([number])))
   end function json_number
 
   !> Text in quotes. UTF-8 is kept, bytes that are not UTF-8 become U+FFFD, control characters are

@@ -1,13 +1,12 @@
-!> Tables: plain text, every row complete in itself, all digits of a double; on request the same
-!! rows as CSV.
+!> Tables: plain text, every row complete in itself, numbers with all digits that they need or with
+!! as many as are asked for; on request the same rows as CSV.
 module tables
   use csv_text, only: csv_field, csv_line_end, csv_quoted, csv_record
-  use decimals, only: decimal_of, decimal_t, decimal_value
   use errors, only: error_t
   use file_system, only: joined_path
   use kinds, only: long, wp
-  use number_text, only: number_width, scientific
-  use numbers, only: write_shortest
+  use number_text, only: most_digits, real_cells, number_width, rounded
+  use numbers, only: number_length, read_real
   use output_files, only: append_file, append_output, close_output, finish_output, open_output, &
     output_file_t
   use table_rows, only: item_failure, item_gap, item_row, next_item, row_item_t, rows_t
@@ -19,12 +18,14 @@ module tables
     append_later_rows
   public :: column_t, real_column, integer_column, name_column, append_column
   public :: write_header, write_notes, write_rows
-  public :: real_cells, decimal_cell, integer_cell, name_cell, has_unit
+  public :: real_cells, integer_cell, name_cell, has_unit
 
   type :: column_t
     character(len=:), allocatable :: name
     character(len=:), allocatable :: unit !! `-` without one
     integer :: width = 0                  !! characters, with the blank before
+    integer :: least_digits = 0           !! that its numbers keep at least where they are rounded;
+                                          !! 0: they are not real
   end type column_t
 
   type :: table_file_t
@@ -32,6 +33,7 @@ module tables
     logical :: has_plain = .true.             !! at least one of the two
     logical :: has_csv = .false.
     logical :: has_blocks = .true.            !! empty lines separate the variants
+    integer :: digits = most_digits           !! of real numbers; most_digits: not rounded
     type(column_t), allocatable :: columns(:) !! all; not allocated before the header is written
     integer(long) :: rows = 0_long            !! written so far, without failed ones
     integer(long) :: failed_rows = 0_long     !! could not be computed
@@ -42,9 +44,13 @@ module tables
                                                            !! the deck has one variant only
     real(wp), allocatable, private :: parameter_values(:)  !! (parameters) of the current variant
     character(len=:), allocatable, private :: first_cells  !! the same as text: start of every row
+    integer, allocatable, private :: widths(:)             !! (columns) of the file
   end type table_file_t
 
   integer, parameter :: integer_width = 9
+  !> Digits that are kept of what tells rows apart, and of what is an error. A failed row gives its
+  !! place in so many, too.
+  integer, parameter, public :: digits_of_place = 12, digits_of_errors = 3
   character(len=*), parameter :: no_unit = "-"
   character(len=*), parameter :: line_feed = achar(10)
 
@@ -108,6 +114,8 @@ contains
       .not. table%has_plain)
     later%has_blocks = table%has_blocks
     later%columns = table%columns
+    later%digits = table%digits
+    later%widths = table%widths
     call begin_variant(later, table%parameters, table%parameter_values)
   end subroutine open_later_rows
 
@@ -143,13 +151,16 @@ contains
     call close_output(table%csv)
   end subroutine close_table
 
-  !> A column of real numbers.
+  !> A column of real numbers. Errors, the residuals of equations and growth, which are to be seen
+  !! as small as they are, keep some digits where others are rounded to fewer.
   pure function real_column(name, unit) result(column)
     character(len=*), intent(in) :: name !! at the head
     character(len=*), intent(in) :: unit !! as in the table; `-`: none
     type(column_t) :: column
 
-    column = column_t(name, unit, number_width)
+    column = column_t(name, unit, number_width, 1)
+    if (index(name, "error") + index(name, "closure") + index(name, "growth") > 0) &
+      column%least_digits = digits_of_errors
   end function real_column
 
   !> A column of whole numbers, without unit.
@@ -237,6 +248,11 @@ contains
 
     table%notes = notes
     table%columns = [table%parameters, columns]
+    table%columns(:size(table%parameters))%least_digits = digits_of_place
+    allocate (table%widths(size(table%columns)))
+    do i = 1, size(table%columns)
+      table%widths(i) = width_of(table%columns(i), table%digits)
+    end do
     call append_plain(table, "# "//title_line(title)//line_feed)
     do i = 1, size(notes)
       call append_plain(table, "# "//notes(i)%text//line_feed)
@@ -246,8 +262,8 @@ contains
     fields = ""
     do i = 1, size(table%columns)
       associate (column => table%columns(i))
-        names = names//name_cell(column%name, column%width)
-        units = units//name_cell(column%unit, column%width)
+        names = names//name_cell(column%name, table%widths(i))
+        units = units//name_cell(column%unit, table%widths(i))
         fields = fields//csv_field(name_with_unit(column))//","
       end associate
     end do
@@ -299,15 +315,66 @@ contains
     type(table_file_t), intent(inout) :: table
     character(len=*), intent(in) :: cells
 
+    if (table%digits < most_digits) then
+      call write_cells(table, rounded_cells(table, table%first_cells//cells))
+    else
+      call write_cells(table, table%first_cells//cells)
+    end if
+    table%rows = table%rows + 1
+  end subroutine write_row
+
+  subroutine write_cells(table, cells)
+    type(table_file_t), intent(inout) :: table
+    character(len=*), intent(in) :: cells !! of all columns
+
     if (table%gap_due) call append_plain(table, line_feed)
     table%gap_due = .false.
-    call append_plain(table, table%first_cells)
     call append_plain(table, cells)
     call append_plain(table, line_feed)
-    table%rows = table%rows + 1
-    if (table%has_csv) call append_output(table%csv, csv_record(table%first_cells//cells)//","// &
-      csv_line_end)
-  end subroutine write_row
+    if (table%has_csv) call append_output(table%csv, csv_record(cells)//","//csv_line_end)
+  end subroutine write_cells
+
+  !> The cells of the first columns with numbers rounded and columns as narrow as these allow.
+  pure function rounded_cells(table, cells) result(narrow)
+    type(table_file_t), intent(in) :: table
+    character(len=*), intent(in) :: cells !! separated by blanks, of the first columns or all
+    character(len=:), allocatable :: narrow
+
+    type(error_t), allocatable :: error
+    character(len=number_width) :: number
+    real(wp) :: value
+    integer :: i, first, last
+
+    narrow = ""
+    last = 0
+    do i = 1, size(table%columns)
+      first = verify(cells(last + 1:), " ")
+      if (first == 0) return
+      first = last + first
+      last = first + index(cells(first:)//" ", " ") - 2
+      associate (column => table%columns(i), cell => cells(first:last))
+        if (column%least_digits > 0 .and. number_length(cell) == len(cell)) then
+          call read_real(cell, value, error)
+          number = real_cells([rounded(value, max(table%digits, column%least_digits))])
+          narrow = narrow//name_cell(trim(adjustl(number)), table%widths(i))
+        else
+          narrow = narrow//name_cell(cell, table%widths(i))
+        end if
+      end associate
+    end do
+  end function rounded_cells
+
+  !> Width of a column whose numbers are rounded.
+  pure function width_of(column, digits) result(width)
+    type(column_t), intent(in) :: column
+    integer, intent(in) :: digits
+    integer :: width
+
+    width = column%width
+    if (column%least_digits == 0 .or. digits == most_digits) return
+    width = max(width - most_digits + max(digits, column%least_digits), len(column%name) + 1, &
+      len(column%unit) + 1)
+  end function width_of
 
   !> Writes empty lines: one where a curve breaks, two between blocks. CSV needs none, since its
   !! columns show both.
@@ -330,58 +397,25 @@ contains
     character(len=*), intent(in) :: reason
 
     real(wp), allocatable :: known(:)
+    character(len=:), allocatable :: cells
     integer :: i
 
     known = [table%parameter_values, place]
     call append_plain(table, "# failed")
     do i = 1, size(known)
-      call append_plain(table, " "//table%columns(i)%name//"="//to_string(known(i), 12))
+      call append_plain(table, " "//table%columns(i)%name//"="//to_string(known(i), &
+        digits_of_place))
     end do
     call append_plain(table, " : "//reason//line_feed)
     table%gap_due = table%has_blocks
     table%failed_rows = table%failed_rows + 1
     if (.not. table%has_csv) return
+    cells = real_cells(known)
+    if (table%digits < most_digits) cells = rounded_cells(table, cells)
     ! Without a known value there is one comma less: none stands before the first field.
-    call append_output(table%csv, csv_record(real_cells(known))//repeat(",", &
+    call append_output(table%csv, csv_record(cells)//repeat(",", &
       size(table%columns) - max(1, size(known)) + 1)//csv_quoted(reason)//csv_line_end)
   end subroutine write_failure
-
-  !> Cells of numbers with 17 digits. Zero has no sign: -0 would make equal tables differ.
-  function real_cells(values) result(cells)
-    real(wp), intent(in) :: values(:) !! one per cell
-    character(len=number_width*size(values)) :: cells
-
-    integer :: i
-
-    do i = 1, size(values)
-      cells(number_width*(i - 1) + 1:number_width*i) = scientific(values(i) + 0.0_wp, number_width)
-    end do
-  end function real_cells
-
-  !> A number as the shortest decimal that is read as the same number, filled up with zeros: 0.9 has
-  !! no 2 at its end, as the nearest double in 17 digits does.
-  function decimal_cell(value) result(cell)
-    real(wp), intent(in) :: value !! finite
-    character(len=number_width) :: cell
-
-    type(decimal_t) :: number
-    character(len=:), allocatable :: digits
-    character(len=4) :: exponent
-    integer :: zeros
-
-    cell = real_cells([value])
-    call write_shortest(value, digits)
-    number = decimal_of(digits)
-    if (.not. number%is_exact .or. number%digits == 0_long) return
-    if (abs(decimal_value(number) - value) > 0.0_wp) return
-    digits = to_string(abs(number%digits))
-    ! Besides digits: a blank, sign, point, E, sign and three digits of the exponent.
-    zeros = number_width - 8 - len(digits)
-    if (zeros < 0) return
-    write (exponent, "(sp,i4.3)") number%power + len(digits) - 1
-    cell = " "//merge("-", " ", value < 0.0_wp)//digits(1:1)//"."//digits(2:)//repeat("0", &
-      zeros)//"E"//exponent
-  end function decimal_cell
 
   !> A whole number at the right end of its column.
   pure function integer_cell(value, name) result(cell)

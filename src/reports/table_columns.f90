@@ -5,8 +5,9 @@ module table_columns
   use number_text, only: number_width
   use output_units, only: output_units_t, power_factor, power_unit, stiffness_unit, &
     stress_factor, stress_unit
-  use report_kinds, only: column_kind_t, columns_of, table_kind_t
-  use tables, only: append_column, column_t, integer_column, name_column, real_cells, real_column
+  use report_kinds, only: column_kind_t, columns_of, key_count, table_kind_t
+  use tables, only: append_column, column_t, digits_of_place, integer_column, name_column, &
+    real_cells, real_column
   use text, only: same_word, string_t, to_string
   use units, only: coherent_factor, coherent_unit, dimension_acceleration, dimension_inertia, &
     dimension_length, dimension_mass, dimension_none, dimension_time, dimension_velocity, from_si, &
@@ -69,6 +70,10 @@ contains
             call append_column(layout%columns, real_column(kind%name, measure%name))
           end if
         end do
+      end associate
+      if (i > key_count(kinds) .or. filled == 0) cycle
+      associate (column => layout%columns(filled))
+        if (column%least_digits > 0) column%least_digits = digits_of_place
       end associate
     end do
   end subroutine new_table_layout

@@ -51,7 +51,7 @@ contains
 
   !> Opens the folder and every file of a run. Errors: the folder or a file cannot be made, another
   !! run is writing there, a file would replace one that is not of an earlier run.
-  subroutine open_outputs(folder, model, inputs, parameters, csv, outputs, error, csv_only)
+  subroutine open_outputs(folder, model, inputs, parameters, csv, outputs, error, csv_only, digits)
     character(len=*), intent(in) :: folder           !! path of the output folder
     type(model_t), intent(in) :: model               !! of the first variant
     type(string_t), intent(in) :: inputs(:)          !! paths of the files of the deck
@@ -61,13 +61,17 @@ contains
     type(outputs_t), intent(out) :: outputs          !! to be discarded after an error
     type(error_t), allocatable, intent(out) :: error !! why nothing can be written
     logical, intent(in), optional :: csv_only        !! with `csv`: no plain tables
+    integer, intent(in), optional :: digits          !! of numbers in tables; absent or 0: as the
+                                                     !! deck says
 
     type(string_t), allocatable :: names(:)
-    integer :: i
+    integer :: shown, i
 
     allocate (outputs%tables(0), names(0))
     outputs%csv = csv
     if (present(csv_only)) outputs%plain = .not. (csv .and. csv_only)
+    shown = model%outputs%digits
+    if (present(digits)) shown = merge(digits, shown, digits > 0)
     outputs%parameters = parameters
     call tables_of(model, outputs%kinds)
     do i = 1, size(outputs%kinds)
@@ -89,6 +93,7 @@ contains
         call open_table(own, trim(outputs%kinds(i)%table%name), csv, outputs%tables(i), error, &
           .not. outputs%plain)
         if (allocated(error)) return
+        outputs%tables(i)%digits = shown
         outputs%tables(i)%has_blocks = outputs%kinds(i)%table%has_blocks
       end do
       call open_output(joined_path(own, echo_name), outputs%echo, error)

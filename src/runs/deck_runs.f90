@@ -61,6 +61,7 @@ module deck_runs
     character(len=:), allocatable :: figures !! command that draws figures; empty or not allocated:
                                              !! not known
     logical :: csv_only = .false.           !! and not as plain text
+    integer :: digits = 0                   !! of numbers in tables; 0: as the deck says
     type(part_t) :: part                    !! of the variants that is computed, without tables
     logical :: join = .false.               !! put parts together
     character(len=:), allocatable :: limit  !! of time, as the user gave it; not allocated: none
@@ -233,7 +234,7 @@ contains
       if (allocated(error)) return
     end if
     call open_outputs(folder, deck%model, inputs, parameter_columns(deck), options%csv, &
-      session%outputs, error, options%csv_only)
+      session%outputs, error, options%csv_only, options%digits)
     if (.not. (allocated(error) .or. options%join)) call open_journal(folder, title, &
       options%resume, session%journal, blocks)
   end subroutine open_files

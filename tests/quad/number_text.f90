@@ -1,46 +1,39 @@
 !> Numbers as text with all the digits of quadruple precision: in place of src/base/words/number_text.f90.
 module number_text
-  use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_size_t
   use kinds, only: wp
   implicit none (type, external)
   private
 
-  public :: scientific, number_width
+  public :: real_cells, number_width, most_digits, rounded
 
-  interface
-    !> `snprintf` for one quadruple number (ISO/IEC TS 18661-3, in the GNU C library).
-    function c_strfromf128(text, size, format, value) bind(c, name="strfromf128") result(length)
-      import :: c_char, c_int, c_size_t, wp
-      character(kind=c_char), intent(out) :: text(*)
-      integer(c_size_t), intent(in), value :: size
-      character(kind=c_char), intent(in) :: format(*)
-      real(wp), intent(in), value :: value
-      integer(c_int) :: length
-    end function c_strfromf128
-  end interface
-
-  integer, parameter :: number_width = 43 !! sign, 35 digits, point, exponent of four digits, and a blank
-  integer, parameter :: longest = 64
+  integer, parameter :: number_width = 44 !! sign, 35 digits, point, exponent of four digits, and a blank
+  integer, parameter :: most_digits = 17  !! to which numbers are rounded; this one means all
 
 contains
 
-  !> A finite number with 35 digits and an exponent of three, at the right end of a field.
-  function scientific(value, width) result(text)
-    real(wp), intent(in) :: value
-    integer, intent(in) :: width
-    character(len=width) :: text
+  !> Numbers with 35 digits at the right ends of fields.
+  pure function real_cells(values) result(cells)
+    real(wp), intent(in) :: values(:) !! finite, one per field
+    character(len=number_width*size(values)) :: cells
 
-    character(kind=c_char) :: digits(longest)
-    character(len=longest) :: number
-    integer :: i, length, exponent_at, missing
+    integer :: i
 
-    length = int(c_strfromf128(digits, int(longest, c_size_t), ["%", ".", "3", "4", "E", c_null_char], value))
-    do i = 1, length
-      number(i:i) = digits(i)
+    do i = 1, size(values)
+      write (cells(number_width*(i - 1) + 1:number_width*i), "(es44.34e4)") values(i) + 0.0_wp
     end do
-    exponent_at = index(number(:length), "E")
-    missing = max(0, 3 - (length - exponent_at - 1))
-    text = repeat(" ", width - length - missing)//number(:exponent_at + 1)//repeat("0", missing)//number(exponent_at + 2:length)
-  end function scientific
+  end function real_cells
+
+  !> The number nearest to `value` that has so many significant digits.
+  pure function rounded(value, digits) result(near)
+    real(wp), intent(in) :: value !! finite
+    integer, intent(in) :: digits !! from 1
+    real(wp) :: near
+
+    character(len=64) :: form, text
+
+    write (form, "(a,i0,a)") "(es60.", digits - 1, "e4)"
+    write (text, form) value
+    read (text, *) near
+  end function rounded
 
 end module number_text

@@ -8,7 +8,7 @@ motion_deck >"$deck"
 
 help() {
   run 0 --help && silent || return 1
-  for option in --check --out --set --threads --format --resume --time-limit --part --join --quiet --stats --json --version --help --help-cards --man --completion; do
+  for option in --check --out --set --threads --format --digits --resume --time-limit --part --join --quiet --stats --json --version --help --help-cards --man --completion; do
     grep -q -e "^ *$option" "$scratch/stdout" || { echo "$option is not explained"; return 1; }
   done
 }

@@ -27,7 +27,7 @@ variants() {
   elastic plain "SET z 0.0625" "DAMPING * ratio=\$z" "SPEED 8 10"
   run 0 --quiet --out "$out" "$scratch/plain.deck" || return 1
   for table in response strains peaks torque validity; do
-    grep -v '^#' "$out/one/varied/$table.dat" | grep '^  6.2500000000000000E-002' | cut -c 27- >"$scratch/rows"
+    grep -v '^#' "$out/one/varied/$table.dat" | grep '^ *0\.0625 ' | cut -c 27- >"$scratch/rows"
     grep -v '^#' "$out/plain/$table.dat" | grep . | sed 's/^ *//' >"$scratch/wanted"
     sed 's/^ *//' "$scratch/rows" | cmp -s - "$scratch/wanted" || { echo "$table.dat differs"; return 1; }
     [ -s "$scratch/wanted" ] || { echo "$table.dat is empty"; return 1; }
@@ -43,7 +43,7 @@ rocker() {
   for table in response strains peaks torque validity; do
     [ "$(grep -c '^# failed L=250 speed=[18]0* : the crank does not turn fully' "$out/rocker/$table.dat")" -eq 2 ] ||
       { echo "failures of $table.dat"; return 1; }
-    grep -q '^  1.0000000000000000E+002' "$out/rocker/$table.dat" || { echo "no rows in $table.dat"; return 1; }
+    grep -q '^ *100 ' "$out/rocker/$table.dat" || { echo "no rows in $table.dat"; return 1; }
     [ "$(grep -c 'does not turn fully' "$out/rocker/$table.csv")" -eq 2 ] || { echo "failures of $table.csv"; return 1; }
   done
   run 1 --json --out "$out" "$scratch/rocker.deck" || return 1

@@ -27,7 +27,7 @@ variants() {
   first plain "s/thickness=1.6/thickness=1.5/" "SPEED 50 51" "REPORT stability accuracy=1e-4"
   first varied "s/thickness=1.6/thickness=\$t/" "VARY t 1.5 1.6" "SPEED 50 51" "REPORT stability accuracy=1e-4"
   run 0 --quiet --out "$out" "$scratch/plain.deck" "$scratch/varied.deck" || return 1
-  grep -v '^#' "$out/varied/stability.dat" | grep '^  1.5000000000000000E+000' | cut -c 27- | sed 's/^ *//' >"$scratch/rows"
+  grep -v '^#' "$out/varied/stability.dat" | grep '^ *1\.5 ' | cut -c 27- | sed 's/^ *//' >"$scratch/rows"
   grep -v '^#' "$out/plain/stability.dat" | grep . | sed 's/^ *//' >"$scratch/wanted"
   [ "$(grep -c . "$scratch/wanted")" -eq 6 ] && cmp "$scratch/rows" "$scratch/wanted"
 }
@@ -99,7 +99,7 @@ rocker() {
   run 1 --quiet --out "$out" "$scratch/rocker.deck" && says "L=250, stability, speed 50 rad/s: the crank does not turn fully" || return 1
   for table in stability intervals campbell; do
     grep -q '^# failed L=250 .*the crank does not turn fully' "$out/rocker/$table.dat" || { echo "failures of $table.dat"; return 1; }
-    grep -q '^  1.0000000000000000E+002' "$out/rocker/$table.dat" || { echo "no rows in $table.dat"; return 1; }
+    grep -q '^ *100 ' "$out/rocker/$table.dat" || { echo "no rows in $table.dat"; return 1; }
   done
 }
 

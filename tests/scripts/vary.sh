@@ -40,8 +40,7 @@ def read(*path):
         return file.read()
 
 def cell(word):
-    mantissa, exponent = f"{float(word):25.16E}".split("E")
-    return f"{mantissa[1:]}E{exponent[0]}{int(exponent[1:]):03d}"
+    return f"{float(word):25g}"
 
 for table in tables:
     # Remarks of the variants (angles, limits) may differ: the rows are compared, and the names and units.

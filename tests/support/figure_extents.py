@@ -99,7 +99,7 @@ def scaled(lines, factor):
         if names is None:
             names, units = header[-2:]
         for i, word in enumerate(words):
-            if re.fullmatch(r"[-+]?\d\.\d+E[-+]\d+", word) and names[i] not in ("speed", "crank") and units[i] not in ("deg", "-"):
+            if re.fullmatch(r"-?\d+(\.\d+)?(e[-+]\d+)?", word) and names[i] not in ("speed", "crank") and units[i] not in ("deg", "-"):
                 words[i] = f"{float(word)*factor:.16E}"
         yield " ".join(words) + "\n"
 

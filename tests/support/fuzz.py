@@ -50,7 +50,7 @@ RUN_TIME = re.compile(r"Fortran runtime|Backtrace|SIG[A-Z]{3}|At line \d+ of fil
 FAILURE = re.compile(r"^d\.deck: error: (.*(crank (\S+ to )?\S+ (deg|" + "|".join(LENGTHS) + r")(, \d+ positions)?|, speeds? (\S+ to )?\S+ (rad/s|rpm))|\S+=\S+( \S+=\S+)*): .",
                      re.MULTILINE)
 NOT_A_NUMBER = re.compile(r"\b(?:NaN|[-+]?Inf(?:inity)?)\b|\*{4,}|is not a number$")
-REAL = re.compile(r"-?\d\.\d+E[-+]\d{3}$")
+NUMBER = re.compile(r"-?(0|[1-9]\d*)(\.\d+)?(e[-+]\d{2,3})?$")
 PLACE = re.compile(r"(?P<deck>.*?):(?P<line>\d+):(?P<column>\d+): (?:error|warning|note): .")
 # Columns of words; and `branch`, but for branches.dat.
 WORDS = {"link", "event", "point", "gauge", "linkage", "quantity", "kind", "modes", "verdict", "pin", "drive", "part", "unit", "joint", "coordinate",
@@ -129,7 +129,7 @@ def fault_of_table(name, text):
                 continue
             if column in GAPS and cell == "-":
                 continue
-            if not REAL.match(cell) and not re.match(r"-?\d+$", cell):
+            if not NUMBER.match(cell):
                 return f"{name}: {column} is {cell}"
     return None
 

@@ -81,7 +81,7 @@ def rows_of(path):
 
 
 def written(cell):
-    return f"{float(cell):.6g}" if re.search(r"E[-+]\d", cell) else cell
+    return f"{float(cell):.6g}" if re.fullmatch(r"-?\d+(\.\d+)?(e[-+]\d+)?", cell) and re.search("[.e]", cell) else cell
 
 
 def faults_of_table(path, cells):
@@ -95,7 +95,7 @@ def faults_of_table(path, cells):
             yield f"{found[:2]}, not {wanted[:2]}"
         return
     for line, name, column in zip(cells[1:], names, zip(*rows)):
-        values = {cell: float(cell) for cell in column if re.fullmatch(r"-?\d[\d.]*(E[-+]\d+)?", cell)}
+        values = {cell: float(cell) for cell in column if re.fullmatch(r"-?\d+(\.\d+)?(e[-+]\d+)?", cell)}
         words = any(cell != "-" and cell not in values for cell in column)
         extremes = ["", ""] if words or len(set(column)) == 1 else [f"{value:.6g}" for value in (min(values.values()), max(values.values()))]
         wanted = [name, written(column[0]), written(column[-1])] + extremes

@@ -22,6 +22,7 @@ need_library() {
 }
 
 need_command "$compiler" gfortran
+need_command "${CXX:-g++}" g++ # for its library: it finds the digits of numbers
 need_command makedepf90 makedepf90
 need_command gnuplot gnuplot-nox # its libraries bring a font along, so text appears in the figures
 need_command numdiff numdiff

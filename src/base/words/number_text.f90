@@ -1,51 +1,51 @@
-!> Numbers as text with all their significant digits.
+!> Numbers as text: the shortest decimal that is read back as the same double, as 60, 0.1 or
+!! 2.5e-07. The digits are found by `shortest_digits.cpp`.
 module number_text
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_null_char, c_size_t
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int
   use kinds, only: wp
   implicit none (type, external)
   private
 
-  public :: scientific, number_width
+  public :: real_cells, number_width, most_digits, rounded
 
   interface
-    !> `snprintf` for one double (ISO/IEC TS 18661-1, in the C library): three times as fast as a
-    !! formatted write, which takes most of the time of writing a large table.
-    function c_strfromd(text, size, format, value) bind(c, name="strfromd") result(length)
-      import :: c_char, c_double, c_int, c_size_t
+    pure subroutine c_write_numbers(values, count, width, text) &
+      bind(c, name="flexmech_write_numbers")
+      import :: c_char, c_double, c_int
+      real(c_double), intent(in) :: values(*)
+      integer(c_int), intent(in), value :: count, width
       character(kind=c_char), intent(out) :: text(*)
-      integer(c_size_t), intent(in), value :: size
-      character(kind=c_char), intent(in) :: format(*)
+    end subroutine c_write_numbers
+
+    pure function c_rounded(value, digits) bind(c, name="flexmech_rounded") result(near)
+      import :: c_double, c_int
       real(c_double), intent(in), value :: value
-      integer(c_int) :: length
-    end function c_strfromd
+      integer(c_int), intent(in), value :: digits
+      real(c_double) :: near
+    end function c_rounded
   end interface
 
-  integer, parameter :: number_width = 25 !! sign, 17 digits, point, exponent of three digits, and a
-                                          !! blank
-  integer, parameter :: longest = 32
+  integer, parameter :: number_width = 25 !! sign, 17 digits, point, exponent with letter, sign and
+                                          !! three digits, and a blank
+  integer, parameter :: most_digits = 17  !! that a double may need
 
 contains
 
-  !> A number with 17 digits and a three-digit exponent, right-aligned in a field, as `es25.16e3`
-  !! writes it.
-  function scientific(value, width) result(text)
+  !> Numbers at the right ends of fields. Zero has no sign: -0 would make equal tables differ.
+  pure function real_cells(values) result(cells)
+    real(wp), intent(in) :: values(:) !! finite, one per field
+    character(len=number_width*size(values)) :: cells
+
+    call c_write_numbers(values, size(values), number_width, cells)
+  end function real_cells
+
+  !> The number nearest to `value` that has so many significant digits.
+  pure function rounded(value, digits) result(near)
     real(wp), intent(in) :: value !! finite
-    integer, intent(in) :: width  !! of the field [characters], at least 24
-    character(len=width) :: text
+    integer, intent(in) :: digits !! from 1 to most_digits
+    real(wp) :: near
 
-    character(kind=c_char) :: digits(longest)
-    character(len=longest) :: number
-    integer :: i, length, exponent_at, missing
-
-    length = int(c_strfromd(digits, int(longest, c_size_t), ["%", ".", "1", "6", "E", &
-      c_null_char], real(value, c_double)))
-    do i = 1, length
-      number(i:i) = digits(i)
-    end do
-    exponent_at = index(number(:length), "E")
-    missing = 3 - (length - exponent_at - 1)
-    text = repeat(" ", width - length - missing)//number(:exponent_at + 1)//repeat("0", missing)// &
-      number(exponent_at + 2:length)
-  end function scientific
+    near = c_rounded(value, digits)
+  end function rounded
 
 end module number_text

@@ -1,7 +1,7 @@
 ! src/base/words/ - text, numbers as text, names, bytes: nothing about decks or mechanics.
-! Text to number: `read_real` in `numbers.f90`. Number to text: `to_string` here, `scientific` in
-! `number_text.f90` with all digits. Names: `find_name` in `name_index.f90`, `suggestion` in
-! `spelling.f90`. Bytes: `byte_stream_t` (`byte_streams.f90`).
+! Text to number: `read_real` in `numbers.f90`. Number to text: `to_string` here, `real_cells` in
+! `number_text.f90` with all digits that are needed. Names: `find_name` in `name_index.f90`,
+! `suggestion` in `spelling.f90`. Bytes: `byte_stream_t` (`byte_streams.f90`).
 ! Not here: words of a deck with their places (`src/deck`), cells of tables (`src/output`).
 
 !> Small helpers for text: case, numbers as text, lists of words, lengths in characters rather than

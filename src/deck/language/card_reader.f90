@@ -394,8 +394,8 @@ contains
 
   !> Reads the integer of a key.
   !!
-  !! Errors: it is no integer, or is less than `least`.
-  pure subroutine read_entry_count(card, key, least, diagnostics, value, fine)
+  !! Errors: it is no integer, is less than `least` or more than `most`.
+  pure subroutine read_entry_count(card, key, least, diagnostics, value, fine, most)
     type(card_t), intent(in) :: card                  !! of any kind
     character(len=*), intent(in) :: key               !! in any case of letters
     integer, intent(in) :: least                      !! smallest allowed value
@@ -403,7 +403,9 @@ contains
     integer, intent(out) :: value                     !! `least` without the key
     logical, intent(out) :: fine                      !! whether the key exists and its value is
                                                       !! right
+    integer, intent(in), optional :: most             !! largest allowed value; absent: any
 
+    character(len=:), allocatable :: range
     type(error_t), allocatable :: error
     type(token_t) :: word
 
@@ -411,15 +413,21 @@ contains
     fine = .false.
     word = value_of(card, key)
     if (word%line == 0) return
+    range = to_string(least)//" up"
+    if (present(most)) range = to_string(least)//" to "//to_string(most)
     call read_integer(word%text, value, error)
     if (allocated(error)) then
-      call add_error(diagnostics, word, error%text//"; expected a whole number from "// &
-        to_string(least)//" up")
-    else if (value < least) then
+      call add_error(diagnostics, word, error%text//"; expected a whole number from "//range)
+      return
+    end if
+    fine = value >= least
+    if (present(most)) fine = fine .and. value <= most
+    if (fine) return
+    if (present(most)) then
+      call add_error(diagnostics, word, "'"//key//"=' must be from "//range//", not "//word%text)
+    else
       call add_error(diagnostics, word, "'"//key//"=' must be at least "//to_string(least)// &
         ", not "//word%text)
-    else
-      fine = .true.
     end if
   end subroutine read_entry_count
 

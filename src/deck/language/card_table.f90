@@ -41,9 +41,9 @@ module card_table
     card_kind_t("TITLE", is_single=.true., pattern="TITLE text", &
       help="the title of tables and figures"), &
     card_kind_t("UNITS", is_single=.true., least=3, most=3, &
-      pattern="UNITS length mass time [force=] [torque=] [energy=] [speed=] [format=]", &
-      choices="four_bar linkage", help="the units of bare numbers; required. The keys set "// &
-      "those of results"), &
+      pattern="UNITS length mass time [force=] [torque=] [energy=] [speed=] [digits=] "// &
+      "[format=]", choices="four_bar linkage", help="the units of bare numbers; required. The "// &
+      "keys set those of results"), &
     card_kind_t("INCLUDE", least=1, most=1, pattern="INCLUDE file", &
       help="the cards of another file"), &
     card_kind_t("SET", least=2, most=many, pattern="SET name value", &

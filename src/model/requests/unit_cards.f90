@@ -1,9 +1,10 @@
-!> UNITS card: the units of bare numbers, and those of results.
+!> UNITS card: the units of bare numbers, and units and digits of results.
 module unit_cards
-  use card_reader, only: check_form, has_key, has_value, value_of
+  use card_reader, only: check_form, has_key, has_value, read_entry_count, value_of
   use cards, only: card_t
   use diagnostics, only: add_error, diagnostics_t
   use errors, only: error_of_input, error_t, set_error
+  use number_text, only: most_digits
   use output_units, only: new_output_units, output_units_t, table_name
   use tokens, only: token_t
   use units, only: dimension_force, dimension_length, dimension_mass, dimension_moment, &
@@ -15,16 +16,17 @@ module unit_cards
 
 contains
 
-  !> Reads `UNITS length mass time [force=] [torque=] [energy=] [speed=]`. Errors: words or keys
-  !! that do not fit the card, an unknown unit or one of another dimension; that unit then keeps its
-  !! value.
+  !> Reads `UNITS length mass time [force=] [torque=] [energy=] [speed=] [digits=]`. Errors: words
+  !! or keys that do not fit the card, an unknown unit or one of another dimension, which then keeps
+  !! its value; no number of digits.
   subroutine read_units(card, diagnostics, system, outputs, chooses_rate)
     type(card_t), intent(in) :: card                  !! the UNITS card
     type(diagnostics_t), intent(inout) :: diagnostics !! errors are added
     type(unit_system_t), intent(inout) :: system      !! has default units before
-    type(output_units_t), intent(out) :: outputs      !! units of results
+    type(output_units_t), intent(out) :: outputs      !! units and digits of results
     logical, intent(out) :: chooses_rate              !! whether it has `speed=`
 
+    integer :: digits
     logical :: fine
 
     call check_form(card, diagnostics, fine)
@@ -39,6 +41,8 @@ contains
     call read_entry(card, "energy", dimension_moment, diagnostics, outputs%energy)
     call read_entry(card, "speed", dimension_rate, diagnostics, outputs%rate)
     chooses_rate = has_key(card, "speed")
+    call read_entry_count(card, "digits", 1, diagnostics, digits, fine, most_digits)
+    if (fine) outputs%digits = digits
   end subroutine read_units
 
   !> The unit of a key; without the key it keeps its value.

@@ -8,7 +8,7 @@ module motion_coordinates_report
   use report_types, only: fit_columns, table_plan_t, whole_table_t
   use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: decimal_cell, name_cell
+  use tables, only: name_cell, real_cells
   use text, only: append_string, string_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -69,7 +69,7 @@ contains
           cycle
         end if
         do k = 1, size(listed)
-          call add_row(rows, decimal_cell(time_in_table(variant%model, i))// &
+          call add_row(rows, real_cells([time_in_table(variant%model, i)])// &
             name_cell(listed(k)%name, column_width(layout, 2))//cells(layout, 3, &
             shown_state(variant, k, motion%coordinates(k, i))))
         end do

@@ -8,7 +8,7 @@ module motion_forces_report
   use report_types, only: whole_table_t
   use table_columns, only: cells, column_width, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: decimal_cell, name_cell
+  use tables, only: name_cell, real_cells
   use text, only: append_string, string_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -60,7 +60,7 @@ contains
             call add_open_row(rows, [time_in_table(variant%model, i)], variant, motion%joints(k))
             cycle
           end if
-          call add_row(rows, decimal_cell(time_in_table(variant%model, i))//name_cell( &
+          call add_row(rows, real_cells([time_in_table(variant%model, i)])//name_cell( &
             mechanism%pin_names(motion%joints(k)%pin)%text, column_width(layout, 2))// &
             owner_cell(variant, motion%joints(k), column_width(layout, 3))//cells(layout, 4, &
             motion%force(:, k, i)))

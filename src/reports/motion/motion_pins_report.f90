@@ -13,7 +13,7 @@ module motion_pins_report
   use report_types, only: whole_table_t
   use table_columns, only: cells, column_width, table_factor, table_layout_t
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: decimal_cell, name_cell
+  use tables, only: name_cell, real_cells
   use text, only: append_string, string_t
   use units, only: from_si
   use variant_results, only: variant_results_t
@@ -68,7 +68,7 @@ contains
       associate (mechanism => variant%mechanism)
         do p = 1, size(mechanism%pin_names)
           if (mechanism%linkage%is_ground(p)) cycle
-          call add_row(rows, decimal_cell(time_in_table(variant%model, instant))//name_cell( &
+          call add_row(rows, real_cells([time_in_table(variant%model, instant)])//name_cell( &
             mechanism%pin_names(p)%text, column_width(layout, 2))//cells(layout, 3, pin(:, p)))
         end do
       end associate

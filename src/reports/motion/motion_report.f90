@@ -21,7 +21,7 @@ module motion_report
   use report_types, only: add_table, fit_columns, report_record_t, table_plan_t, whole_table_t
   use table_columns, only: cells, table_factor, table_layout_t, table_unit
   use table_rows, only: add_failed_row, add_row, rows_t
-  use tables, only: decimal_cell
+  use tables, only: real_cells
   use text, only: append_string, plural, string_t, to_string
   use text_buffer, only: append_text, buffer_text, text_buffer_t
   use units, only: dimension_time, from_si, unit_t
@@ -251,7 +251,7 @@ contains
         else
           call general_cells(model, asked, layout, motion, i, row)
         end if
-        call add_row(rows, decimal_cell(time_in_table(model, i))//row)
+        call add_row(rows, real_cells([time_in_table(model, i)])//row)
       end do
     end associate
     call add_early_end(variant, rows)

@@ -13,7 +13,7 @@ module geometry_report
   use spring_cards, only: spring_card_t
   use table_columns, only: cells, column_width, in_column, name_list_t, table_layout_t
   use table_rows, only: add_failed_row, add_gap, add_row, rows_t
-  use tables, only: decimal_cell, name_cell
+  use tables, only: name_cell, real_cells
   use text, only: append_string, same_word, string_t
   use variant_results, only: variant_results_t
   implicit none (type, external)
@@ -168,8 +168,8 @@ contains
 
     do i = 1, variant%found%motion%count
       if (i > 1) call add_gap(rows, 2)
-      call add_drawing(variant, layout, variant%found%motion_places, i, decimal_cell( &
-        time_in_table(variant%model, i)), rows)
+      call add_drawing(variant, layout, variant%found%motion_places, i, real_cells( &
+        [time_in_table(variant%model, i)]), rows)
     end do
     call add_early_end(variant, rows)
   end subroutine add_motion_places

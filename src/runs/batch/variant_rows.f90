@@ -154,6 +154,7 @@ contains
       call stream%pass_text(columns(i)%name)
       call stream%pass_text(columns(i)%unit)
       call stream%pass(columns(i)%width)
+      call stream%pass(columns(i)%least_digits)
     end do
   end subroutine pass_columns
 
