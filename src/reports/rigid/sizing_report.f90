@@ -4,6 +4,7 @@ module sizing_report
   use effort_sources, only: effort_source_t, find_effort_sources
   use joints_report, only: add_open_row, joint_owners, owner_cell
   use kinds, only: wp
+  use number_text, only: most_digits, rounded
   use load_notes, only: acceleration_note, append_load_notes
   use models, only: has_law, model_t, report_number
   use motor_cards, only: is_geared
@@ -54,6 +55,9 @@ module sizing_report
     procedure, nopass :: plan => plan_sizing
     procedure, nopass :: add_all => add_sizing
   end type sizing_table_t
+
+  !> Of the place of a peak, which is flat there.
+  integer, parameter :: digits_of_peaks = 9
 
 contains
 
@@ -328,12 +332,28 @@ contains
         shown = from_si(shown, measure)
         unit = measure%name
       end if
+      if (values(i)%error > 0.0_wp) shown = rounded(shown, digits_to(values(i)%error, unit, shown))
       call add_row(rows, cells(layout, 1, place_of(variant, speed))//names// &
         name_cell(trim(values(i)%quantity), column_width(layout, first + 2))//cells(layout, &
         first + 3, [shown])//name_cell(unit, column_width(layout, first + 4))//cells(layout, &
-        first + 5, [values(i)%crank, values(i)%error]))
+        first + 5, [rounded(values(i)%crank, digits_of_peaks), &
+        values(i)%error]))
     end do
   end subroutine put_rows
+
+  !> Digits up to a thousandth of the error, which is an estimate; six at least.
+  pure function digits_to(error, unit, value) result(digits)
+    real(wp), intent(in) :: error        !! a share of the value, of an angle in degrees itself
+    character(len=*), intent(in) :: unit !! of the value
+    real(wp), intent(in) :: value
+    integer :: digits
+
+    real(wp) :: share
+
+    share = error
+    if (unit == "deg") share = error/max(abs(value), error)
+    digits = min(most_digits, max(6, 4 - floor(log10(share))))
+  end function digits_to
 
   !> The column of parts: the first of all where laws leave no speed to tell.
   pure function first_column(model) result(column)

@@ -178,10 +178,11 @@ contains
           return
         end if
         call append_string(list, "counterweight of link "//name//": mass x radius "// &
-          shortest_text(from_si(norm2(weight%first_moment), first_moment))//" "// &
-          first_moment%name//", at "//shortest_text(atan2(weight%first_moment(2), &
+          to_string(from_si(norm2(weight%first_moment), first_moment))//" "// &
+          first_moment%name//", at "//to_string(atan2(weight%first_moment(2), &
           weight%first_moment(1))/degree)//" deg from "//mechanism%pin_names(weight%pin)%text// &
           " -> "//mechanism%pin_names(weight%towards)%text)
+        ! The card has all digits: with 13 a deck that takes it would say that it needs another one.
         ! `place_on_card` is its own inverse: here it goes from the body to the card.
         place = from_si(place_on_card(variant%mechanism%linkage%bodies(weight%body), lump%place), &
           table_unit("length", variant%model%outputs)) + 0.0_wp

@@ -91,7 +91,7 @@ contains
     type(unit_t), intent(in) :: measure
     character(len=:), allocatable :: words
 
-    words = to_string(from_si(value, measure), 12)//" "//measure%name
+    words = to_string(from_si(value, measure))//" "//measure%name
   end function in_words
 
 end module friction_words
