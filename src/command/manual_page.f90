@@ -31,7 +31,8 @@ contains
     call append_text(page, ".B "//program_name//line_feed//"[options] DECK..."//line_feed)
     call append_section(page, "DESCRIPTION")
     call append_line(page, "Computes motion, forces, balance, natural frequencies and mode "// &
-      "shapes of planar linkages, rigid or flexible, from decks: text files with one card per line.")
+      "shapes of planar linkages, rigid or flexible, from decks: text files with one card per "// &
+      "line.")
     call append_paragraph(page, "For every deck the tables are written to outputs/<deck base "// &
       "name>/, with run.log, echo.deck and summary.json. A deck named - is standard input.")
     call append_section(page, "OPTIONS")
