@@ -88,6 +88,7 @@ module deck_runs
     character(len=:), allocatable :: log !! of the first variant that was computed,
     integer :: logged = 0                !! its number,
     integer :: method = 0                !! by which its frequencies were found
+    character(len=:), allocatable :: lost !! study that an interruption leaves nothing of
   end type session_t
 
   !> A variant with more positions than this keeps all threads busy.
@@ -100,7 +101,7 @@ module deck_runs
 
   !> Form of the bytes in a journal: another number wherever they mean something else, since the
   !! version of the program may stay the same.
-  character(len=*), parameter :: journal_form = "journal 13"
+  character(len=*), parameter :: journal_form = "journal 14"
 
 contains
 
@@ -312,7 +313,7 @@ contains
     else if (blocks == 0) then
       message = "no earlier run left anything to resume; this one started afresh"
     else
-      message = "resumed with "//plural(blocks, "block")//" of positions from an earlier run"
+      message = "resumed with "//plural(blocks, "block")//" of results from an earlier run"
       if (variant_count(deck%cards) > 1) message = "resumed with "//plural(blocks, "variant")// &
         " from an earlier run"
     end if
@@ -379,7 +380,10 @@ contains
       call announce_block(deck, number, block, run)
       call compute_block(run, block, error)
       call lap(watch, computing)
-      if (was_interrupted()) return
+      if (was_interrupted()) then
+        session%lost = trim(run%under_way)
+        return
+      end if
       if (allocated(error)) then
         if (variant_count(deck%cards) == 1) return
         if (block > 1) call end_results(session%outputs, failure)
@@ -530,7 +534,7 @@ contains
     if (was_interrupted()) then
       call close_journal(session%journal, blocks)
       call set_error(error, error_of_interruption, end_of_run(options)// &
-        "; its earlier results are untouched"//resume_hint(blocks), deck%source%path)
+        "; its earlier results are untouched"//resume_hint(blocks, session%lost), deck%source%path)
       return
     end if
     if (options%part%count > 0) then
@@ -559,13 +563,16 @@ contains
     if (was_out_of_time()) text = "stopped at its time limit of "//options%limit
   end function end_of_run
 
-  !> What to do after an interruption; empty without a journal.
-  pure function resume_hint(blocks) result(hint)
+  !> What to do after an interruption; empty without a journal, if nothing is lost.
+  pure function resume_hint(blocks, lost) result(hint)
     integer, intent(in) :: blocks !! in the journal
+    character(len=:), allocatable, intent(in) :: lost !! study of which nothing is kept
     character(len=:), allocatable :: hint
 
     hint = ""
     if (blocks > 0) hint = "; --resume continues from what it has computed"
+    if (.not. allocated(lost)) return
+    if (len(lost) > 0) hint = hint//"; nothing is kept of '"//lost//"'"
   end function resume_hint
 
   !> The text of `run.log`: what the deck describes, accuracy of its results, warnings, failed

@@ -99,6 +99,8 @@ contains
     do i = 1, size(studies)
       if (.not. needs_study(run%results%model, studies(i)%name)) cycle
       if (was_interrupted()) return
+      run%under_way = studies(i)%name
+      if (studies(i)%keeps) run%under_way = ""
       if (associated(studies(i)%compute)) call studies(i)%compute(run)
       if (allocated(run%error)) then
         call move_alloc(run%error, error)

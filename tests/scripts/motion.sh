@@ -154,3 +154,13 @@ long() {
   says "long.deck: interrupted; its earlier results are untouched" && absent "$scratch/new"
 }
 check "a long motion can be interrupted" long
+
+# A busy machine does not get to it in two seconds.
+lost() {
+  for limit in 2s 20s 200s; do
+    run 130 --out "$scratch/new" --time-limit $limit "$scratch/long.deck" || return 1
+    says "; nothing is kept of 'motion'" >/dev/null && break
+  done
+  says "its earlier results are untouched; nothing is kept of 'motion'"
+}
+check "what an interruption leaves nothing of is named" lost

@@ -176,3 +176,50 @@ not_asked() {
   run 0 --out "$scratch/again" "$scratch/changed/sweep.deck" && silent && absent "$scratch/again/sweep/resume.part"
 }
 check "without --resume the journal is removed" not_asked
+
+# The long studies keep what they find at each speed, meeting or critical speed.
+damped="DAMPING * time=2e-5"
+study_deck() {
+  case $1 in
+    response) beam_deck "DAMPING * time=1e-4" "CRANK 0 to 350 step 10" "SPEED 10 to 20 step 1" "REPORT response accuracy=1e-6" "REPORT strains" "REPORT peaks" "REPORT validity" ;;
+    stability) beam_deck "SPEED 20 to 60 step 2" "REPORT stability" ;;
+    intervals) beam_deck "SPEED 40 to 56 step 4" "MODES 2" "REPORT intervals accuracy=1e-4" ;;
+    campbell) beam_deck "$damped" "SPEED 50 to 60 step 2" "REPORT campbell accuracy=1e-4" ;;
+    transient) beam_deck "$damped" "SPEED 10 20 rad/s ramp=0.1" "REPORT transient turns=1 instants=48 accuracy=1e-5" ;;
+  esac | grep -v -e '^MESH' -e '^INERTIA'
+}
+
+# first_blocks JOURNAL COUNT: cut off behind so many blocks; fewer are none.
+first_blocks() {
+  python3 - "$1" "$2" <<'END_OF_SCRIPT'
+import struct, sys
+path, count = sys.argv[1], int(sys.argv[2])
+with open(path, "rb") as file:
+    data = file.read()
+at = 4 + struct.unpack_from("i", data)[0]
+for block in range(count):
+    at += 32 + struct.unpack_from("4i", data, at)[2]
+assert at <= len(data), f"{path} has fewer blocks"
+with open(path, "wb") as file:
+    file.write(data[:at])
+END_OF_SCRIPT
+}
+
+# study_continues NAME: interrupted when there is something to go on from, with all of that and with the first block alone.
+study_continues() {
+  study_deck "$1" >"$scratch/$1.deck"
+  run 0 --quiet --out "$scratch/whole" --format csv "$scratch/$1.deck" || return 1
+  rm -rf "$scratch/studies"
+  killed INT "$scratch/studies" "$scratch/$1.deck" --quiet --format csv --threads 2 || return 1
+  says "; --resume continues from what it has computed" || return 1
+  for count in all 1; do
+    rm -rf "$scratch/again"
+    cp -r "$scratch/studies" "$scratch/again"
+    [ $count = all ] || first_blocks "$scratch/again/$1/resume.part" $count || return 1
+    resumed "$1" "$scratch/again" --threads 1 || return 1
+    [ $count = all ] || [ "$(blocks_told)" -eq $count ] || { echo "$(blocks_told) blocks, not $count"; return 1; }
+  done
+}
+for study in response stability intervals campbell transient; do
+  check "$study continues" study_continues $study
+done

@@ -25,8 +25,8 @@ module byte_streams
       pass_real, pass_reals, pass_matrix
     generic :: pass => pass_integer, pass_integers, pass_long, pass_logical, pass_logicals, &
       pass_real, pass_reals, pass_matrix
-    procedure, private :: pass_scalar, pass_list, pass_table, pass_block
-    generic :: pass_allocatable => pass_scalar, pass_list, pass_table, pass_block
+    procedure, private :: pass_scalar, pass_list, pass_table, pass_layers, pass_block
+    generic :: pass_allocatable => pass_scalar, pass_list, pass_table, pass_layers, pass_block
     procedure :: pass_text, pass_word, pass_bytes
     procedure :: add, add_text          !! what is written only
   end type byte_stream_t
@@ -189,6 +189,23 @@ contains
     call self%pass_matrix(values)
   end subroutine pass_table
 
+  pure subroutine pass_layers(self, values)
+    class(byte_stream_t), intent(inout) :: self
+    real(wp), allocatable, intent(inout) :: values(:, :, :)
+
+    integer :: sizes(3), k
+
+    sizes = -1
+    if (allocated(values)) sizes = shape(values)
+    call self%pass_integers(sizes)
+    if (self%reads .and. allocated(values)) deallocate (values)
+    if (sizes(1) < 0) return
+    if (self%reads) allocate (values(sizes(1), sizes(2), sizes(3)))
+    do k = 1, sizes(3)
+      call self%pass_matrix(values(:, :, k))
+    end do
+  end subroutine pass_layers
+
   pure subroutine pass_block(self, values)
     class(byte_stream_t), intent(inout) :: self
     real(wp), allocatable, intent(inout) :: values(:, :, :, :)
@@ -275,7 +292,7 @@ contains
     end if
   end subroutine pass_bytes
 
-  !> Kind, text and link of an error, or that there is none. Its place in a file is not kept.
+  !> Kind, text, link and pin of an error, or that there is none. Its place in a file is not kept.
   pure subroutine pass_error(stream, error)
     type(byte_stream_t), intent(inout) :: stream
     type(error_t), allocatable, intent(inout) :: error !! not allocated: no error
@@ -290,6 +307,7 @@ contains
     call stream%pass(error%kind)
     call stream%pass(error%place%body)
     call stream%pass(error%place%other)
+    call stream%pass(error%place%pin)
     call stream%pass(error%missing)
     call stream%pass_text(error%text)
   end subroutine pass_error

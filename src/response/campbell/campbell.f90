@@ -6,6 +6,7 @@ module campbell
   use errors, only: error_t
   use frozen_bands, only: find_bands, new_dense_basis
   use interruption, only: was_interrupted
+  use kept_results, only: keeper_t
   use kinds, only: wp
   use link_store, only: link_store_t
   use response_levels, only: level_slot_t, need_basis, need_level
@@ -32,13 +33,14 @@ contains
   !!
   !! Errors: the crank does not turn fully; own modes of a link could not be found. Those of a speed
   !! are in its result.
-  subroutine find_campbell(structure, request, threads, store, found, error)
+  subroutine find_campbell(structure, request, threads, store, found, error, keeper)
     class(structure_t), intent(in) :: structure      !! linkage and beams
     type(stability_request_t), intent(in) :: request !! speeds, modes, accuracy
     integer, intent(in) :: threads                   !! number of OpenMP threads
     type(link_store_t), intent(inout) :: store       !! links decomposed earlier
     type(campbell_t), intent(out) :: found
     type(error_t), allocatable, intent(out) :: error !! why there is nothing at any speed
+    class(keeper_t), intent(inout), optional :: keeper !! of exponents and critical speeds
 
     type(stability_t) :: exponents
     type(slow_basis_t) :: basis(2)
@@ -48,7 +50,7 @@ contains
 
     found%damped = any(request%damping%kind /= no_damping)
     allocate (found%at_speed(size(request%speed)), found%critical(0), found%gap(0))
-    call find_stability(structure, request, threads, store, exponents, error)
+    call find_stability(structure, request, threads, store, exponents, error, keeper)
     if (allocated(error)) return
     call find_bases
     if (allocated(error)) return
@@ -82,7 +84,7 @@ contains
     if (frequency(2) <= 0.0_wp .or. was_interrupted()) return
     deallocate (found%critical, found%gap)
     call find_critical_speeds(structure, request, frequency, threads, store, found%critical, &
-      found%gap, found%left_out, error)
+      found%gap, found%left_out, error, keeper)
     if (allocated(error)) return
     found%critical%speed = sign(found%critical%speed, request%speed(1))
     do k = 1, size(found%gap)

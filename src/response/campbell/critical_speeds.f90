@@ -8,6 +8,7 @@
 !!
 !! Crossings that the slow motion says to be hardly excited are left out.
 module critical_speeds
+  use byte_streams, only: byte_stream_t, pass_error
   use campbell_types, only: critical_t, gap_t
   use constants, only: two_pi
   use elastic_equations, only: load_at_speed
@@ -17,6 +18,7 @@ module critical_speeds
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
   use frozen_modes, only: find_frozen_frequencies
   use interruption, only: was_interrupted
+  use kept_results, only: keep_result, keeper_t, recall_result
   use kinds, only: wp
   use link_store, only: link_store_t
   use mode_numbers, only: growing_mode
@@ -112,7 +114,7 @@ contains
   !!
   !! Errors: the crank does not turn fully; own modes of a link could not be found.
   subroutine find_critical_speeds(structure, request, frequency, threads, store, critical, gap, &
-    left_out, error)
+    left_out, error, keeper)
     class(structure_t), intent(in) :: structure      !! linkage and beams
     type(stability_request_t), intent(in) :: request !! speeds of one sign, modes, accuracy
     real(wp), intent(in) :: frequency(2)             !! of the lowest and the highest mode [rad/s]
@@ -122,6 +124,8 @@ contains
     type(gap_t), allocatable, intent(out) :: gap(:)  !! speeds between which some may be missed
     integer, intent(out) :: left_out                 !! hardly excited
     type(error_t), allocatable, intent(out) :: error !! why there is nothing
+    class(keeper_t), intent(inout), optional :: keeper !! of crossings solved for, stage 2, and
+                                                       !! how much they are excited, stage 3
 
     type(stability_request_t) :: wider
     type(level_slot_t), allocatable :: levels(:)
@@ -171,8 +175,7 @@ contains
       of_rounding*at_rest)
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
     do i = 1, size(candidate)
-      call refine_speed(request, levels(candidate(i)%level(1))%level, &
-        levels(candidate(i)%level(2))%level, candidate(i))
+      call refine_crossing(i)
     end do
     !$omp end parallel do
     if (was_interrupted()) return
@@ -186,9 +189,7 @@ contains
     allocate (critical(size(candidate)))
     !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
     do i = 1, size(candidate)
-      if (was_interrupted()) cycle
-      call find_excitation(request, levels(candidate(i)%level(1))%level, &
-        levels(candidate(i)%level(2))%level, candidate(i), critical(i))
+      if (.not. was_interrupted()) call excite(i)
     end do
     !$omp end parallel do
     i = size(critical)
@@ -197,6 +198,36 @@ contains
     left_out = left_out + size(candidate) - size(critical)
 
   contains
+
+    !> Solves for the speed of a candidate, or takes that of an earlier run.
+    subroutine refine_crossing(i)
+      integer, intent(in) :: i
+
+      type(byte_stream_t) :: stream
+      logical :: known
+
+      call recall_result(keeper, [2, 1, i], stream, known)
+      if (.not. known) call refine_speed(request, levels(candidate(i)%level(1))%level, &
+        levels(candidate(i)%level(2))%level, candidate(i))
+      if (.not. (known .or. present(keeper))) return
+      call pass_candidate(stream, candidate(i))
+      if (.not. known) call keep_result(keeper, [2, 1, i], stream)
+    end subroutine refine_crossing
+
+    !> Likewise for its excitation.
+    subroutine excite(i)
+      integer, intent(in) :: i
+
+      type(byte_stream_t) :: stream
+      logical :: known
+
+      call recall_result(keeper, [3, 1, i], stream, known)
+      if (.not. known) call find_excitation(request, levels(candidate(i)%level(1))%level, &
+        levels(candidate(i)%level(2))%level, candidate(i), critical(i))
+      if (.not. (known .or. present(keeper))) return
+      call pass_critical(stream, critical(i))
+      if (.not. known) call keep_result(keeper, [3, 1, i], stream)
+    end subroutine excite
 
     !> Whether a candidate is the interval of one before it, in which a multiplier passes 1 twice.
     logical function is_again(i)
@@ -217,6 +248,36 @@ contains
     end function is_outside
 
   end subroutine find_critical_speeds
+
+  !> Passes what `refine_speed` finds of a candidate.
+  pure subroutine pass_candidate(stream, candidate)
+    type(byte_stream_t), intent(inout) :: stream
+    type(candidate_t), intent(inout) :: candidate
+
+    call stream%pass(candidate%speed)
+    call stream%pass(candidate%speed_error)
+    call stream%pass(candidate%line)
+    call stream%pass(candidate%centre)
+    call stream%pass(candidate%square)
+    call stream%pass(candidate%change)
+    call stream%pass(candidate%found)
+  end subroutine pass_candidate
+
+  pure subroutine pass_critical(stream, critical)
+    type(byte_stream_t), intent(inout) :: stream
+    type(critical_t), intent(inout) :: critical
+
+    call stream%pass(critical%speed)
+    call stream%pass(critical%speed_error)
+    call stream%pass(critical%line)
+    call stream%pass(critical%mode)
+    call stream%pass(critical%frequency)
+    call stream%pass(critical%growth)
+    call stream%pass(critical%excitation)
+    call stream%pass(critical%amplitude)
+    call stream%pass(critical%error)
+    call pass_error(stream, critical%fault)
+  end subroutine pass_critical
 
   !> The excitation by the slow motion alone, and the deflection under the same loads at rest.
   subroutine find_rough(request, level, candidate, excitation, at_rest)

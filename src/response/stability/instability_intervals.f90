@@ -7,18 +7,22 @@
 !! orders and numbers of samples, without damping and then with it. What was found is confirmed at
 !! single speeds in every interval and between them.
 module instability_intervals
+  use byte_streams, only: byte_stream_t
   use errors, only: error_t
   use exponent_meetings, only: find_interval, interval_t
   use interval_checks, only: confirm_intervals
+  use kept_results, only: keep_result, keeper_t, recall_result
   use kinds, only: wp
   use link_store, only: link_store_t
   use meeting_exponents, only: begin_with, close_pair, find_numbers, meeting_pair_t, meeting_t, &
     open_pair
   use multiplier_meetings, only: add_gap, find_meetings, least_modes
   use refinements, only: begin_round, raise, refinement_limits_t, refinement_t
+  use response_bytes, only: pass_refinement
   use response_levels, only: level_slot_t
   use response_types, only: link_damping_t, no_damping
   use sorting, only: ascending_order
+  use stability_bytes, only: pass_instability
   use stability_types, only: instability_t, intervals_t, stability_request_t, &
     unstable_combination, unstable_flip, unstable_fold
   use structures, only: structure_t
@@ -53,13 +57,15 @@ contains
   !! of those wanted meet.
   !!
   !! Errors: the crank does not turn fully; own modes of a link could not be found.
-  subroutine find_intervals(structure, request, threads, store, found, error)
+  subroutine find_intervals(structure, request, threads, store, found, error, keeper)
     class(structure_t), intent(in) :: structure      !! linkage and beams
     type(stability_request_t), intent(in) :: request !! speeds of one sign, modes, least growth
     integer, intent(in) :: threads                   !! number of OpenMP threads
     type(link_store_t), intent(inout) :: store       !! links decomposed earlier
     type(intervals_t), intent(out) :: found
     type(error_t), allocatable, intent(out) :: error !! why there are none
+    class(keeper_t), intent(inout), optional :: keeper !! of meetings, a round each: without damping
+                                                       !! stage 1, with it stage 2
 
     type(stability_request_t) :: undamped
     type(meeting_t), allocatable :: meetings(:)
@@ -73,14 +79,14 @@ contains
     call find_meetings(structure, undamped, threads, store, found, meetings, error)
     if (allocated(error)) return
     allocate (searches(size(meetings)))
-    call measure(structure, undamped, threads, store, meetings, searches, error)
+    call measure(structure, undamped, threads, store, meetings, 1, searches, error, keeper)
     if (allocated(error)) return
     if (any(request%damping%kind /= no_damping)) then
       searches%wanted = searches%interval%growth > 0.0_wp
       meetings%from = searches%interval%from
       meetings%at = searches%interval%at
       meetings%to = searches%interval%to
-      call measure(structure, request, threads, store, meetings, searches, error)
+      call measure(structure, request, threads, store, meetings, 2, searches, error, keeper)
       if (allocated(error)) return
     end if
     call add_gaps(meetings, searches, found)
@@ -150,19 +156,20 @@ contains
 
   !> Measures intervals by the whole equation, on two levels, and with higher orders and more
   !! samples where they are not accurate enough.
-  subroutine measure(structure, request, threads, store, meetings, searches, error)
+  subroutine measure(structure, request, threads, store, meetings, stage, searches, error, keeper)
     class(structure_t), intent(in) :: structure
     type(stability_request_t), intent(in) :: request
     integer, intent(in) :: threads
     type(link_store_t), intent(inout) :: store
     type(meeting_t), intent(in) :: meetings(:)
+    integer, intent(in) :: stage                 !! of what is kept
     type(search_t), intent(inout) :: searches(:) !! one for each meeting
     type(error_t), allocatable, intent(out) :: error
+    class(keeper_t), intent(inout), optional :: keeper
 
     type(level_slot_t), allocatable, target :: levels(:)
     type(refinement_t) :: refinement(size(searches))
-    integer :: i
-    logical :: begun
+    integer :: i, round
 
     allocate (levels(0))
     refinement%limits = limits
@@ -174,18 +181,37 @@ contains
       if (searches(i)%wanted .and. .not. refinement(i)%pending) searches(i)%fault = &
         "too many vibrations in a turn of the crank"
     end do
+    round = 0
     do while (any(refinement%pending))
+      round = round + 1
       call need_two_levels(structure, request, refinement, store, levels, error)
       if (allocated(error)) return
-      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i, begun)
+      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(i)
       do i = 1, size(searches)
-        call begin_round(refinement(i), begun)
-        if (begun) call measure_interval(meetings(i), refinement(i), searches(i))
+        call measure_meeting(i)
       end do
       !$omp end parallel do
     end do
 
   contains
+
+    !> A round of a meeting, if one is pending: measured, or what an earlier run has found in it.
+    subroutine measure_meeting(i)
+      integer, intent(in) :: i
+
+      type(byte_stream_t) :: stream
+      logical :: begun, known
+
+      call begin_round(refinement(i), begun)
+      if (.not. begun) return
+      call recall_result(keeper, [stage, round, i], stream, known)
+      if (.not. known) call measure_interval(meetings(i), refinement(i), searches(i))
+      if (.not. (known .or. present(keeper))) return
+      call pass_refinement(stream, refinement(i))
+      call pass_instability(stream, searches(i)%interval)
+      call stream%pass_word(searches(i)%fault)
+      if (.not. known) call keep_result(keeper, [stage, round, i], stream)
+    end subroutine measure_meeting
 
     !> Measures one on both levels.
     subroutine measure_interval(meeting, refinement, search)

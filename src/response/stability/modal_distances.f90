@@ -6,16 +6,19 @@
 !! equation, twice, with other orders and with samples that are no multiple. The second is the
 !! result, the difference its error.
 module modal_distances
+  use byte_streams, only: byte_stream_t, pass_error
   use constants, only: two_pi
   use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_t
   use floquet_exponents, only: find_floquet_modes, floquet_mode_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
+  use kept_results, only: keep_result, keeper_t, recall_result
   use kinds, only: long, wp
   use link_store, only: link_store_t
   use mode_numbers, only: growing_mode, most_spread
   use order_transfer, only: transferred_halves
   use refinements, only: add_work, begin_round, compare, raise, refinement_limits_t, refinement_t
+  use response_bytes, only: pass_refinement
   use response_levels, only: level_slot_t, level_t, set_equation
   use stability_types, only: stability_request_t
   use structures, only: structure_t
@@ -58,18 +61,18 @@ contains
   !!
   !! Errors: the crank does not turn fully; own modes of a link could not be found. Those of a speed
   !! are in its result.
-  subroutine find_modal_distances(structure, request, threads, store, found, error)
+  subroutine find_modal_distances(structure, request, threads, store, found, error, keeper)
     class(structure_t), intent(in) :: structure      !! linkage and beams
     type(stability_request_t), intent(in) :: request !! speeds, modes, accuracy
     integer, intent(in) :: threads                   !! number of OpenMP threads
     type(link_store_t), intent(inout) :: store       !! links decomposed earlier
     type(modal_distance_t), allocatable, intent(out) :: found(:) !! (speeds)
     type(error_t), allocatable, intent(out) :: error !! why there is nothing at any speed
+    class(keeper_t), intent(inout), optional :: keeper !! of speeds, a round each, stage 2
 
     type(level_slot_t), allocatable :: levels(:)
     type(refinement_t) :: refinement(size(request%speed))
-    integer :: k
-    logical :: begun
+    integer :: k, round
 
     allocate (found(size(refinement)), levels(0))
     refinement%limits = limits
@@ -79,20 +82,43 @@ contains
     do k = 1, size(refinement)
       if (.not. refinement(k)%pending) call set_too_slow(request, found(k)%why)
     end do
+    round = 0
     do while (any(refinement%pending))
+      round = round + 1
       call need_two_levels(structure, request, refinement, store, levels, error, &
         slow=request%modes + slow_above)
       if (allocated(error)) return
-      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k, begun)
+      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k)
       do k = 1, size(refinement)
-        associate (here => refinement(k))
-          call begin_round(here, begun)
-          if (begun) call solve_speed(request, abs(request%speed(k)), levels(here%level(1))%level, &
-            levels(here%level(2))%level, here, found(k))
-        end associate
+        call find_at_speed(k)
       end do
       !$omp end parallel do
     end do
+
+  contains
+
+    !> A round at a speed, if one is pending: solved, or what an earlier run has found in it.
+    subroutine find_at_speed(k)
+      integer, intent(in) :: k
+
+      type(byte_stream_t) :: stream
+      logical :: begun, known
+
+      associate (here => refinement(k))
+        call begin_round(here, begun)
+        if (.not. begun) return
+        call recall_result(keeper, [2, round, k], stream, known)
+        if (.not. known) call solve_speed(request, abs(request%speed(k)), &
+          levels(here%level(1))%level, levels(here%level(2))%level, here, found(k))
+        if (.not. (known .or. present(keeper))) return
+        call pass_refinement(stream, here)
+        call stream%pass(found(k)%value)
+        call stream%pass(found(k)%error)
+        call pass_error(stream, found(k)%why)
+        if (.not. known) call keep_result(keeper, [2, round, k], stream)
+      end associate
+    end subroutine find_at_speed
+
   end subroutine find_modal_distances
 
   !> Solves one speed on both levels; raises order and samples if that is not good enough.

@@ -6,20 +6,24 @@
 !! where it is on the circle and farther from those of the other signature, with which alone it
 !! could leave it (Krein), than errors reach.
 module stability
+  use byte_streams, only: byte_stream_t
   use constants, only: two_pi
   use equations_at_speed, only: equation_at_speed_t
   use errors, only: error_of_numerics, error_t, set_error
   use floquet_exponents, only: find_floquet_modes, floquet_mode_t
   use fourier_transform, only: close_fourier, fourier_plan_t, open_fourier
   use frozen_modes, only: find_frozen_frequencies
+  use kept_results, only: keep_result, keeper_t, recall_result
   use kinds, only: long, wp
   use link_store, only: link_store_t
   use mode_numbers, only: growing_mode, most_spread
   use order_transfer, only: transferred_halves
   use refinements, only: add_work, begin_round, compare, raise, refinement_limits_t, refinement_t
+  use response_bytes, only: pass_refinement
   use response_levels, only: level_slot_t, level_t, set_equation
   use response_types, only: no_damping
   use sorting, only: ascending_order
+  use stability_bytes, only: pass_stability
   use stability_types, only: exponent_t, speed_stability_t, stability_request_t, &
     stability_t, stable, undecided, unstable_combination, unstable_flip, unstable_fold
   use structures, only: structure_t
@@ -66,18 +70,18 @@ contains
   !!
   !! Errors: the crank does not turn fully; own modes of a link could not be found. Those of a speed
   !! are in its result.
-  subroutine find_stability(structure, request, threads, store, found, error)
+  subroutine find_stability(structure, request, threads, store, found, error, keeper)
     class(structure_t), intent(in) :: structure      !! linkage and beams
     type(stability_request_t), intent(in) :: request !! speeds, modes, accuracy
     integer, intent(in) :: threads                   !! number of OpenMP threads
     type(link_store_t), intent(inout) :: store       !! links decomposed earlier
     type(stability_t), intent(out) :: found
     type(error_t), allocatable, intent(out) :: error !! why there is nothing at any speed
+    class(keeper_t), intent(inout), optional :: keeper !! of results at speeds, a round each
 
     type(level_slot_t), allocatable :: levels(:)
     type(refinement_t) :: refinement(size(request%speed))
-    integer :: k
-    logical :: begun
+    integer :: k, round
 
     allocate (found%at_speed(size(refinement)), levels(0))
     refinement%limits = limits
@@ -87,19 +91,40 @@ contains
     do k = 1, size(refinement)
       if (.not. refinement(k)%pending) call set_too_slow(request, found%at_speed(k)%error)
     end do
+    round = 0
     do while (any(refinement%pending))
+      round = round + 1
       call need_two_levels(structure, request, refinement, store, levels, error)
       if (allocated(error)) return
-      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k, begun)
+      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k)
       do k = 1, size(refinement)
-        associate (here => refinement(k))
-          call begin_round(here, begun)
-          if (begun) call solve_speed(request, abs(request%speed(k)), levels(here%level(1))%level, &
-            levels(here%level(2))%level, here, found%at_speed(k))
-        end associate
+        call find_at_speed(k)
       end do
       !$omp end parallel do
     end do
+
+  contains
+
+    !> A round at a speed, if one is pending: solved, or what an earlier run has found in it.
+    subroutine find_at_speed(k)
+      integer, intent(in) :: k
+
+      type(byte_stream_t) :: stream
+      logical :: begun, known
+
+      associate (here => refinement(k))
+        call begin_round(here, begun)
+        if (.not. begun) return
+        call recall_result(keeper, [1, round, k], stream, known)
+        if (.not. known) call solve_speed(request, abs(request%speed(k)), &
+          levels(here%level(1))%level, levels(here%level(2))%level, here, found%at_speed(k))
+        if (.not. (known .or. present(keeper))) return
+        call pass_refinement(stream, here)
+        call pass_stability(stream, found%at_speed(k))
+        if (.not. known) call keep_result(keeper, [1, round, k], stream)
+      end associate
+    end subroutine find_at_speed
+
   end subroutine find_stability
 
   !> Solves one speed on both levels: its result, and its next choice of orders and samples if it is

@@ -6,6 +6,7 @@
 !! difference its error. Where that exceeds the accuracy, orders or samples are raised, whichever is
 !! to blame.
 module steady_responses
+  use byte_streams, only: byte_stream_t
   use constants, only: degree, two_pi
   use elastic_equations, only: deformations_of, load_at_speed, strain_rates
   use equations_at_speed, only: equation_at_speed_t
@@ -14,6 +15,7 @@ module steady_responses
   use fourier_transform, only: close_fourier, coefficients_of, derivatives, fourier_plan_t, &
     open_fourier, resample, resampled, value_at, values_of
   use gauge_values, only: gauge_values_of
+  use kept_results, only: keep_result, keeper_t, recall_result
   use kinds, only: long, wp
   use link_loads, only: buckling_shares
   use link_store, only: link_store_t
@@ -23,6 +25,7 @@ module steady_responses
   use quadratic_change, only: find_quadratic_change
   use refinements, only: add_work, begin_round, compare, most_samples, raise, refinement_limits_t, &
     refinement_t, repeat_round, sample_numbers, samples_on
+  use response_bytes, only: pass_refinement, pass_response
   use response_levels, only: level_slot_t, level_t, need_basis, need_level, need_levels, &
     set_equation
   use response_peaks, only: find_peaks, sampled_deflections
@@ -156,20 +159,20 @@ contains
   !!
   !! Errors: the crank does not turn fully; own modes of a link could not be found. Those of a speed
   !! are in its result.
-  subroutine find_steady_responses(structure, request, threads, store, response, error)
+  subroutine find_steady_responses(structure, request, threads, store, response, error, keeper)
     class(structure_t), intent(in) :: structure       !! linkage and beams
     type(response_request_t), intent(in) :: request   !! speeds, places, accuracy
     integer, intent(in) :: threads                    !! number of OpenMP threads
     type(link_store_t), intent(inout) :: store        !! links decomposed earlier
     type(response_t), intent(out) :: response
     type(error_t), allocatable, intent(out) :: error  !! why there is no response at any speed
+    class(keeper_t), intent(inout), optional :: keeper !! of results at speeds, a round each
 
     type(level_slot_t), allocatable :: levels(:)
     type(refinement_t) :: refinement(size(request%speed))
     type(choice_t) :: choice(size(request%speed))
     real(wp), allocatable :: squares(:)
-    integer :: first, free, k
-    logical :: begun
+    integer :: first, free, round, k
 
     allocate (response%at_speed(size(choice)), levels(0))
     refinement%limits = limits
@@ -187,7 +190,9 @@ contains
     free = min(merge(1, 3, any(request%damping%kind /= no_damping)), size(squares))
     refinement%least_above = samples_of(samples_of_free/max(abs(request%speed)*sqrt( &
       squares(free)), tiny(1.0_wp)), most_of_free)
+    round = 0
     do while (any(refinement%pending))
+      round = round + 1
       call need_levels(structure, refinement, store, levels, error)
       if (allocated(error)) return
       do k = 1, size(choice)
@@ -195,19 +200,55 @@ contains
           levels, choice(k), error)
         if (allocated(error)) return
       end do
-      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k, begun)
+      !$omp parallel do num_threads(threads) schedule(dynamic) default(shared) private(k)
       do k = 1, size(choice)
-        associate (here => refinement(k))
-          call begin_round(here, begun)
-          if (begun) call solve_speed(structure, request, abs(request%speed(k)), &
-            levels(here%level(1))%level, levels(here%level(2))%level, here, choice(k), &
-            response%at_speed(k))
-        end associate
+        call find_at_speed(k)
       end do
       !$omp end parallel do
     end do
     if (request%validity) call add_out_of_plane(structure, response)
+
+  contains
+
+    !> A round at a speed, if one is pending: solved, or what an earlier run has found in it.
+    subroutine find_at_speed(k)
+      integer, intent(in) :: k
+
+      type(byte_stream_t) :: stream
+      logical :: begun, known
+
+      associate (here => refinement(k))
+        call begin_round(here, begun)
+        if (.not. begun) return
+        call recall_result(keeper, [1, round, k], stream, known)
+        if (.not. known) call solve_speed(structure, request, abs(request%speed(k)), &
+          levels(here%level(1))%level, levels(here%level(2))%level, here, choice(k), &
+          response%at_speed(k))
+        if (.not. (known .or. present(keeper))) return
+        call pass_refinement(stream, here)
+        call pass_choice(stream, choice(k))
+        call pass_response(stream, response%at_speed(k))
+        if (.not. known) call keep_result(keeper, [1, round, k], stream)
+      end associate
+    end subroutine find_at_speed
   end subroutine find_steady_responses
+
+  pure subroutine pass_choice(stream, choice)
+    type(byte_stream_t), intent(inout) :: stream
+    type(choice_t), intent(inout) :: choice
+
+    logical :: has_best
+
+    call stream%pass(choice%slow)
+    call stream%pass(choice%more_slow)
+    call stream%pass(choice%tightened)
+    call stream%pass(choice%raised_order)
+    has_best = allocated(choice%best)
+    call stream%pass(has_best)
+    if (.not. has_best) return
+    if (.not. allocated(choice%best)) allocate (choice%best)
+    call pass_response(stream, choice%best)
+  end subroutine pass_choice
 
   !> Adds the estimated frequency out of the plane, the same at all speeds: it is that at rest. A
   !! remark does without one where there is none.

@@ -6,6 +6,7 @@
 !! that would follow, which three solutions tell. Vibrations too fast for the steps are in no
 !! solution; what steps miss of them is added.
 module transient_responses
+  use byte_streams, only: byte_stream_t, pass_error
   use constants, only: two_pi
   use crank_laws, only: constant_from, covered_range_t, crank_law_t, crank_motion, extremes_of, &
     time_of_turns
@@ -14,6 +15,7 @@ module transient_responses
   use excited_vibrations, only: excited_vibration_t, find_excited_vibrations, missed_by_steps
   use gauge_values, only: gauge_values_of
   use interruption, only: was_interrupted
+  use kept_results, only: keep_result, keeper_t, recall_result
   use kinds, only: wp
   use link_store, only: link_store_t
   use linkages, only: gives_angle
@@ -83,11 +85,12 @@ module transient_responses
 contains
 
   !> The motion at every speed, or why there is none.
-  subroutine find_transients(structure, request, store, transient)
+  subroutine find_transients(structure, request, store, transient, keeper)
     class(structure_t), intent(in) :: structure        !! linkage and beams
     type(transient_request_t), intent(in) :: request
     type(link_store_t), intent(inout) :: store         !! links decomposed earlier
     type(transient_t), intent(out) :: transient        !! with a result or an error at every speed
+    class(keeper_t), intent(inout), optional :: keeper !! of solutions at speeds, a round each
 
     type(transient_request_t) :: of_bodies
     type(crank_law_t) :: law
@@ -102,19 +105,21 @@ contains
       if (allocated(request%program)) law%program = request%program
       law%range%is_angle = gives_angle(structure%linkage%drives(1))
       law%range%is_turn = law%range%is_angle .and. request%turns_fully
-      call find_transient(structure, of_bodies, law, store, transient%at_speed(k))
+      call find_transient(structure, of_bodies, law, k, store, transient%at_speed(k), keeper)
       call join_largest(structure%elastic, size(structure%linkage%bodies), &
         transient%at_speed(k)%deflection)
     end do
   end subroutine find_transients
 
   !> Solutions one after another until two agree.
-  subroutine find_transient(structure, request, law, store, found)
+  subroutine find_transient(structure, request, law, number, store, found, keeper)
     class(structure_t), intent(in) :: structure
     type(transient_request_t), intent(in) :: request
     type(crank_law_t), intent(inout) :: law !! its range becomes what the motion covers
+    integer, intent(in) :: number           !! of the speed
     type(link_store_t), intent(inout) :: store
     type(speed_transient_t), intent(inout) :: found
+    class(keeper_t), intent(inout), optional :: keeper
 
     type(deformation_model_t) :: model
     type(refinement_t) :: refinement
@@ -141,7 +146,7 @@ contains
         found%steps = reached(2)
         exit
       end if
-      call solve_once(structure, request, law, model, store, before, found, series, missed)
+      call solve_round
       if (allocated(found%error) .or. was_interrupted()) return
       if (refinement%round + 1 >= least_rounds) then
         call evaluate(structure, request, older, before, series, missed, found)
@@ -163,6 +168,28 @@ contains
     end if
 
   contains
+
+    !> A solution, or that of an earlier run.
+    subroutine solve_round
+      type(byte_stream_t) :: stream
+      logical :: known
+
+      associate (place => [1, refinement%round + 1, number])
+        call recall_result(keeper, place, stream, known)
+        if (.not. known) call solve_once(structure, request, law, model, store, before, found, &
+          series, missed)
+        if (.not. (known .or. present(keeper))) return
+        call pass_error(stream, found%error)
+        call stream%pass(found%steps)
+        call stream%pass(found%made)
+        call stream%pass(found%taken)
+        call stream%pass(found%least_error)
+        call stream%pass_allocatable(found%deflection)
+        call stream%pass_allocatable(series)
+        call stream%pass_allocatable(missed)
+        if (.not. known) call keep_result(keeper, place, stream)
+      end associate
+    end subroutine solve_round
 
     !> Says that the accuracy is not reached.
     pure subroutine set_missed(difference, what, error)

@@ -11,6 +11,7 @@ module studies_of_stability
   use stability_study, only: find_intervals_of, find_stability_of
   use stability_types, only: stability_request_t
   use study_findings, only: note_failed_speeds, note_failure_here, note_warning
+  use study_keepers, only: kept_campbell, kept_intervals, kept_stability, study_keeper_t
   use study_types, only: add_study, study_t, variant_run_t
   use text, only: to_string
   use units, only: from_si
@@ -28,20 +29,23 @@ contains
   subroutine add_stability_studies(list)
     type(study_t), allocatable, intent(inout) :: list(:) !! to which they are appended
 
-    call add_study(list, study_t("stability", compute=compute_stability, &
+    call add_study(list, study_t("stability", keeps=.true., compute=compute_stability, &
       add_failures=add_stability_failures))
-    call add_study(list, study_t("intervals", compute=compute_intervals, &
+    call add_study(list, study_t("intervals", keeps=.true., compute=compute_intervals, &
       add_failures=add_intervals_failures))
-    call add_study(list, study_t("campbell", compute=compute_campbell, &
+    call add_study(list, study_t("campbell", keeps=.true., compute=compute_campbell, &
       add_failures=add_campbell_failures, add_warnings=add_campbell_warnings))
   end subroutine add_stability_studies
 
   subroutine compute_stability(run)
     type(variant_run_t), intent(inout), target :: run
 
+    type(study_keeper_t) :: keeper
+
+    keeper = study_keeper_t(run%journal, run%group, kept_stability)
     associate (variant => run%results, stability => run%results%found%stability)
       call find_stability_of(variant%mechanism%structure_t, stability_request_of(variant%model, &
-        variant%mechanism), run%threads, run%store, stability)
+        variant%mechanism), run%threads, run%store, stability, keeper)
       call name_outcomes(variant, stability%at_speed)
     end associate
   end subroutine compute_stability
@@ -57,12 +61,14 @@ contains
   subroutine compute_intervals(run)
     type(variant_run_t), intent(inout), target :: run
 
+    type(study_keeper_t) :: keeper
     type(error_t), allocatable :: error
     integer :: k
 
+    keeper = study_keeper_t(run%journal, run%group, kept_intervals)
     associate (variant => run%results, intervals => run%results%found%intervals)
       call find_intervals_of(variant%mechanism%structure_t, intervals_request_of(variant%model, &
-        variant%mechanism), run%threads, run%store, intervals)
+        variant%mechanism), run%threads, run%store, intervals, keeper)
       do k = 1, size(intervals%gap)
         error = intervals%gap(k)%error
         call name_parts(variant, error)
@@ -95,9 +101,12 @@ contains
   subroutine compute_campbell(run)
     type(variant_run_t), intent(inout), target :: run
 
+    type(study_keeper_t) :: keeper
+
+    keeper = study_keeper_t(run%journal, run%group, kept_campbell)
     associate (variant => run%results, campbell => run%results%found%campbell)
       call find_campbell_of(variant%mechanism%structure_t, campbell_request_of(variant%model, &
-        variant%mechanism), run%threads, run%store, campbell)
+        variant%mechanism), run%threads, run%store, campbell, keeper)
       call name_outcomes(variant, campbell%at_speed)
     end associate
   end subroutine compute_campbell

@@ -63,7 +63,7 @@ contains
   subroutine add_frequency_study(list)
     type(study_t), allocatable, intent(inout) :: list(:) !! to which they are appended
 
-    call add_study(list, study_t(study_name, compute=compute_frequencies, &
+    call add_study(list, study_t(study_name, keeps=.true., compute=compute_frequencies, &
       add_failures_at=add_frequency_failures, add_warnings=add_frequency_warnings, &
       add_work=add_frequency_work, add_memory=add_frequency_memory))
   end subroutine add_frequency_study

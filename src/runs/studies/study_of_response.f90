@@ -14,6 +14,7 @@ module study_of_response
   use run_totals, only: run_totals_t
   use sections, only: outer_distance
   use study_findings, only: judge_deflection, most_deflection, note_failed_speeds, note_warning
+  use study_keepers, only: kept_response, study_keeper_t
   use study_types, only: add_need, add_study, bytes_of_number, memory_needs_t, study_t, &
     variant_run_t
   use text, only: plural, to_string
@@ -39,7 +40,7 @@ contains
   subroutine add_response_study(list)
     type(study_t), allocatable, intent(inout) :: list(:) !! to which they are appended
 
-    call add_study(list, study_t(study_name, compute=compute_response, &
+    call add_study(list, study_t(study_name, keeps=.true., compute=compute_response, &
       add_failures=add_response_failures, add_warnings=add_response_warnings, &
       add_work=add_response_work, add_memory=add_response_memory))
   end subroutine add_response_study
@@ -47,9 +48,12 @@ contains
   subroutine compute_response(run)
     type(variant_run_t), intent(inout), target :: run
 
+    type(study_keeper_t) :: keeper
+
+    keeper = study_keeper_t(run%journal, run%group, kept_response)
     associate (variant => run%results, response => run%results%found%response)
       call find_response(variant%mechanism%structure_t, response_request_of(variant%model, &
-        variant%mechanism), run%threads, run%store, response)
+        variant%mechanism), run%threads, run%store, response, keeper)
       call name_outcomes(variant, response%at_speed)
     end associate
   end subroutine compute_response

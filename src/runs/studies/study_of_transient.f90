@@ -8,6 +8,7 @@ module study_of_transient
   use run_findings, only: findings_t
   use study_findings, only: judge_deflection, most_deflection, note_failure, note_warning
   use study_of_response, only: add_places, response_request_of
+  use study_keepers, only: kept_transient, study_keeper_t
   use study_types, only: add_study, study_t, variant_run_t
   use transient_responses, only: find_transients
   use transient_types, only: from_rest, from_steady, transient_request_t
@@ -26,16 +27,19 @@ contains
   subroutine add_transient_study(list)
     type(study_t), allocatable, intent(inout) :: list(:) !! to which they are appended
 
-    call add_study(list, study_t(study_name, compute=compute_transient, &
+    call add_study(list, study_t(study_name, keeps=.true., compute=compute_transient, &
       add_failures=add_transient_failures, add_warnings=add_transient_warnings))
   end subroutine add_transient_study
 
   subroutine compute_transient(run)
     type(variant_run_t), intent(inout), target :: run
 
+    type(study_keeper_t) :: keeper
+
+    keeper = study_keeper_t(run%journal, run%group, kept_transient)
     associate (variant => run%results, transient => run%results%found%transient)
       call find_transients(variant%mechanism%structure_t, transient_request_of(variant%model, &
-        variant%mechanism), run%store, transient)
+        variant%mechanism), run%store, transient, keeper)
       call name_outcomes(variant, transient%at_speed)
     end associate
   end subroutine compute_transient

@@ -42,6 +42,8 @@ module study_types
                                                    !! are not kept
     character(len=:), allocatable :: announcement  !! by which other ranks help with blocks; not
                                                    !! allocated: they do not
+    character(len=12) :: under_way = ""            !! name of the study, if it keeps nothing in the
+                                                   !! journal
     type(error_t), allocatable :: error            !! of the variant as a whole
   end type variant_run_t
 
@@ -62,6 +64,7 @@ module study_types
   !> A study. Procedures that are not there have nothing to do.
   type :: study_t
     character(len=12) :: name = ""      !! as the records of reports have it
+    logical :: keeps = .false.          !! results in the journal, for `--resume`
     procedure(computation), pointer, nopass :: compute => null()
     procedure(findings_at), pointer, nopass :: add_failures_at => null() !! of a position
     procedure(findings_of), pointer, nopass :: add_failures => null()

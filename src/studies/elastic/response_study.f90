@@ -2,6 +2,7 @@
 module response_study
   use errors, only: error_of_reach, error_t, set_error
   use full_turns, only: turns_fully
+  use kept_results, only: keeper_t
   use kinds, only: wp
   use link_store, only: link_store_t
   use modal_distances, only: find_modal_distances, modal_distance_t
@@ -18,12 +19,13 @@ module response_study
 contains
 
   !> The response at every speed. What prevents it at all speeds fails each of them.
-  subroutine find_response(structure, request, threads, store, response)
+  subroutine find_response(structure, request, threads, store, response, keeper)
     class(structure_t), intent(in) :: structure     !! linkage and beams
     type(response_request_t), intent(in) :: request !! speeds, places, accuracy
     integer, intent(in) :: threads                  !! number of OpenMP threads
     type(link_store_t), intent(inout) :: store      !! links decomposed earlier
     type(response_t), intent(out) :: response       !! with a result or an error at every speed
+    class(keeper_t), intent(inout), optional :: keeper !! of what is found on the way
 
     type(error_t), allocatable :: error
     integer :: k
@@ -34,13 +36,13 @@ contains
         "point: there is no steady state")
     else
       call find_steady_responses(structure, request_of_parts(structure%elastic, request), threads, &
-        store, response, error)
+        store, response, error, keeper)
       do k = 1, size(response%at_speed)
         call join_parts(structure%elastic, size(structure%linkage%bodies), response%at_speed(k))
       end do
     end if
     if (request%validity .and. .not. allocated(error)) call add_distances(structure, request, &
-      threads, store, response)
+      threads, store, response, keeper)
     if (.not. allocated(error)) return
     do k = 1, size(request%speed)
       response%at_speed(k)%error = error
@@ -48,12 +50,13 @@ contains
   end subroutine find_response
 
   !> Adds how near the speeds are to resonance.
-  subroutine add_distances(structure, request, threads, store, response)
+  subroutine add_distances(structure, request, threads, store, response, keeper)
     class(structure_t), intent(in) :: structure
     type(response_request_t), intent(in) :: request
     integer, intent(in) :: threads
     type(link_store_t), intent(inout) :: store
     type(response_t), intent(inout) :: response
+    class(keeper_t), intent(inout), optional :: keeper
 
     !> Multipliers are no more accurate than this.
     real(wp), parameter :: finest = 1.0e-9_wp
@@ -71,7 +74,7 @@ contains
     vibrations%accuracy = max(request%accuracy, finest)
     vibrations%terms = request%terms
     vibrations%damping = dampings_of_parts(structure%elastic, request%damping)
-    call find_modal_distances(structure, vibrations, threads, store, found, error)
+    call find_modal_distances(structure, vibrations, threads, store, found, error, keeper)
     if (allocated(error)) return
     do k = 1, size(at)
       if (allocated(found(k)%why)) cycle

@@ -10,6 +10,7 @@ module stability_study
   use instability_intervals, only: find_intervals
   use errors, only: error_of_reach, error_t, set_error
   use full_turns, only: turns_fully
+  use kept_results, only: keeper_t
   use link_store, only: link_store_t
   use part_requests, only: dampings_of_parts
   use stability, only: find_stability
@@ -26,19 +27,20 @@ module stability_study
 contains
 
   !> The exponents at every speed. What prevents them at all speeds fails each of them.
-  subroutine find_stability_of(structure, request, threads, store, found)
+  subroutine find_stability_of(structure, request, threads, store, found, keeper)
     class(structure_t), intent(in) :: structure      !! linkage and beams
     type(stability_request_t), intent(in) :: request !! speeds, modes, accuracy
     integer, intent(in) :: threads                   !! number of OpenMP threads
     type(link_store_t), intent(inout) :: store       !! links decomposed earlier
     type(stability_t), intent(out) :: found          !! with a result or an error at every speed
+    class(keeper_t), intent(inout), optional :: keeper !! of what is found on the way
 
     type(error_t), allocatable :: error
     integer :: k
 
     if (turns_fully(structure%linkage, through=.false.)) then
       call find_stability(structure, of_vibrating_bodies(structure, request), threads, store, &
-        found, error)
+        found, error, keeper)
     else
       allocate (found%at_speed(size(request%speed)))
       call set_error(error, error_of_reach, no_motion)
@@ -51,19 +53,20 @@ contains
 
   !> The intervals of speed in which vibrations grow. What prevents them is a gap from the least to
   !! the greatest speed.
-  subroutine find_intervals_of(structure, request, threads, store, found)
+  subroutine find_intervals_of(structure, request, threads, store, found, keeper)
     class(structure_t), intent(in) :: structure      !! linkage and beams
     type(stability_request_t), intent(in) :: request !! range of speeds of one sign, modes,
                                                      !! accuracy, least growth
     integer, intent(in) :: threads                   !! number of OpenMP threads
     type(link_store_t), intent(inout) :: store       !! links decomposed earlier
     type(intervals_t), intent(out) :: found
+    class(keeper_t), intent(inout), optional :: keeper !! of what is found on the way
 
     type(error_t), allocatable :: error
 
     if (turns_fully(structure%linkage, through=.false.)) then
       call find_intervals(structure, of_vibrating_bodies(structure, request), threads, store, &
-        found, error)
+        found, error, keeper)
     else
       call set_error(error, error_of_reach, no_motion)
     end if
