@@ -56,9 +56,6 @@ module sizing_report
     procedure, nopass :: add_all => add_sizing
   end type sizing_table_t
 
-  !> Of the place of a peak, which is flat there.
-  integer, parameter :: digits_of_peaks = 9
-
 contains
 
   !> REPORT sizing.
@@ -336,8 +333,7 @@ contains
       call add_row(rows, cells(layout, 1, place_of(variant, speed))//names// &
         name_cell(trim(values(i)%quantity), column_width(layout, first + 2))//cells(layout, &
         first + 3, [shown])//name_cell(unit, column_width(layout, first + 4))//cells(layout, &
-        first + 5, [rounded(values(i)%crank, digits_of_peaks), &
-        values(i)%error]))
+        first + 5, [values(i)%crank, values(i)%error]))
     end do
   end subroutine put_rows
 
