@@ -3,11 +3,13 @@
 #include <cmath>
 #include <cstring>
 
-// Without an exponent from 0.0001 to 999999, beyond where this is shorter.
+// Without an exponent from 0.0001 to 999999, beyond where this is shorter; not from 1e16 on, where it would have more digits
+// than read back.
 static char *write_number(char *first, char *last, double value)
 {
   const double size = std::fabs(value);
   if (size >= 1e-4 && size < 1e6) return std::to_chars(first, last, value, std::chars_format::fixed).ptr;
+  if (size >= 1e16) return std::to_chars(first, last, value, std::chars_format::scientific).ptr;
   return std::to_chars(first, last, value).ptr;
 }
 
