@@ -51,7 +51,7 @@ long_motion() {
 }
 check "no new folder is left by a short run" long_motion
 
-# stops_soon SIGNAL NAME: a run of minutes ends when it is told to, and leaves nothing.
+# stops_soon SIGNAL NAME: a run of minutes ends when it is told to, and leaves nothing but what --resume continues from.
 stops_soon() {
   spend
   begun=$spent
@@ -59,6 +59,7 @@ stops_soon() {
   spend
   [ $((spent - begun)) -lt 30000 ] || { echo "it went on"; return 1; }
   says "$2.deck: interrupted; its earlier results are untouched" || return 1
+  [ ! -f "$scratch/new/$2/resume.part" ] || { rm "$scratch/new/$2/resume.part" && rmdir "$scratch/new/$2" "$scratch/new"; } || return 1
   absent "$scratch/new"
 }
 
