@@ -53,14 +53,15 @@ contains
     !$omp end critical (one_at_a_time)
   end subroutine recall_result
 
-  !> Keeps a result, unless the run was interrupted on the way to it.
+  !> Keeps a result, unless it is one of an earlier run or the run was interrupted on the way to it.
   subroutine keep_result(keeper, place, stream)
     class(keeper_t), intent(inout), optional :: keeper
     integer, intent(in) :: place(3)
-    type(byte_stream_t), intent(in) :: stream
+    type(byte_stream_t), intent(in) :: stream          !! to which it is written, or that it was
+                                                       !! read from
 
     if (.not. present(keeper)) return
-    if (was_interrupted()) return
+    if (stream%reads .or. was_interrupted()) return
     !$omp critical (one_at_a_time)
     call keeper%keep_bytes(place, stream)
     !$omp end critical (one_at_a_time)

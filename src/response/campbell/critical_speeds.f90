@@ -209,9 +209,9 @@ contains
       call recall_result(keeper, [2, 1, i], stream, known)
       if (.not. known) call refine_speed(request, levels(candidate(i)%level(1))%level, &
         levels(candidate(i)%level(2))%level, candidate(i))
-      if (.not. (known .or. present(keeper))) return
+      if (.not. present(keeper)) return
       call pass_candidate(stream, candidate(i))
-      if (.not. known) call keep_result(keeper, [2, 1, i], stream)
+      call keep_result(keeper, [2, 1, i], stream)
     end subroutine refine_crossing
 
     !> Likewise for its excitation.
@@ -224,9 +224,9 @@ contains
       call recall_result(keeper, [3, 1, i], stream, known)
       if (.not. known) call find_excitation(request, levels(candidate(i)%level(1))%level, &
         levels(candidate(i)%level(2))%level, candidate(i), critical(i))
-      if (.not. (known .or. present(keeper))) return
+      if (.not. present(keeper)) return
       call pass_critical(stream, critical(i))
-      if (.not. known) call keep_result(keeper, [3, 1, i], stream)
+      call keep_result(keeper, [3, 1, i], stream)
     end subroutine excite
 
     !> Whether a candidate is the interval of one before it, in which a multiplier passes 1 twice.

@@ -206,11 +206,11 @@ contains
       if (.not. begun) return
       call recall_result(keeper, [stage, round, i], stream, known)
       if (.not. known) call measure_interval(meetings(i), refinement(i), searches(i))
-      if (.not. (known .or. present(keeper))) return
+      if (.not. present(keeper)) return
       call pass_refinement(stream, refinement(i))
       call pass_instability(stream, searches(i)%interval)
       call stream%pass_word(searches(i)%fault)
-      if (.not. known) call keep_result(keeper, [stage, round, i], stream)
+      call keep_result(keeper, [stage, round, i], stream)
     end subroutine measure_meeting
 
     !> Measures one on both levels.

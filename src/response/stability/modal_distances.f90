@@ -110,12 +110,12 @@ contains
         call recall_result(keeper, [2, round, k], stream, known)
         if (.not. known) call solve_speed(request, abs(request%speed(k)), &
           levels(here%level(1))%level, levels(here%level(2))%level, here, found(k))
-        if (.not. (known .or. present(keeper))) return
+        if (.not. present(keeper)) return
         call pass_refinement(stream, here)
         call stream%pass(found(k)%value)
         call stream%pass(found(k)%error)
         call pass_error(stream, found(k)%why)
-        if (.not. known) call keep_result(keeper, [2, round, k], stream)
+        call keep_result(keeper, [2, round, k], stream)
       end associate
     end subroutine find_at_speed
 

@@ -118,10 +118,10 @@ contains
         call recall_result(keeper, [1, round, k], stream, known)
         if (.not. known) call solve_speed(request, abs(request%speed(k)), &
           levels(here%level(1))%level, levels(here%level(2))%level, here, found%at_speed(k))
-        if (.not. (known .or. present(keeper))) return
+        if (.not. present(keeper)) return
         call pass_refinement(stream, here)
         call pass_stability(stream, found%at_speed(k))
-        if (.not. known) call keep_result(keeper, [1, round, k], stream)
+        call keep_result(keeper, [1, round, k], stream)
       end associate
     end subroutine find_at_speed
 

@@ -224,13 +224,14 @@ contains
         if (.not. known) call solve_speed(structure, request, abs(request%speed(k)), &
           levels(here%level(1))%level, levels(here%level(2))%level, here, choice(k), &
           response%at_speed(k))
-        if (.not. (known .or. present(keeper))) return
+        if (.not. present(keeper)) return
         call pass_refinement(stream, here)
         call pass_choice(stream, choice(k))
         call pass_response(stream, response%at_speed(k))
-        if (.not. known) call keep_result(keeper, [1, round, k], stream)
+        call keep_result(keeper, [1, round, k], stream)
       end associate
     end subroutine find_at_speed
+
   end subroutine find_steady_responses
 
   pure subroutine pass_choice(stream, choice)

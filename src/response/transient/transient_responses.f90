@@ -178,7 +178,7 @@ contains
         call recall_result(keeper, place, stream, known)
         if (.not. known) call solve_once(structure, request, law, model, store, before, found, &
           series, missed)
-        if (.not. (known .or. present(keeper))) return
+        if (.not. present(keeper)) return
         call pass_error(stream, found%error)
         call stream%pass(found%steps)
         call stream%pass(found%made)
@@ -187,7 +187,7 @@ contains
         call stream%pass_allocatable(found%deflection)
         call stream%pass_allocatable(series)
         call stream%pass_allocatable(missed)
-        if (.not. known) call keep_result(keeper, place, stream)
+        call keep_result(keeper, place, stream)
       end associate
     end subroutine solve_round
 
