@@ -182,8 +182,8 @@ contains
 
     call place_parts(structure, model, pose, here, error)
     if (allocated(error)) return
-    call find_part_chords(here%elastic_position_t, any(here%loads%occurs), &
-      here%border, chords, error)
+    call find_part_chords(here%elastic_position_t, any(here%loads%occurs), here%border, chords, &
+      error)
     if (allocated(error)) return
     if (any(here%loads%occurs) .or. .not. here%elastic%in_closed_form) call find_part_loads( &
       structure%linkage, pose, here%loads, here%elastic_position_t, here%loaded%loads)
@@ -192,8 +192,7 @@ contains
         here%loaded%forces)
       return
     end if
-    call find_part_forces(here%elastic_position_t, here%border, chords, &
-      here%loaded)
+    call find_part_forces(here%elastic_position_t, here%border, chords, here%loaded)
   end subroutine load_parts
 
   !> Places the parts, and finds their matrices and forces in mixed form, and K_G if it is asked

@@ -95,12 +95,8 @@ contains
     do k = 1, 2
       sense = merge(-1.0_wp, 1.0_wp, k == 1)
       call add_point(at%numbers, ends(k)%point, sense*force, row)
-      if (ends(k)%is_rigid) then
-        call add_rotation(at%numbers, ends(k)%rotation, sense*(couple + &
-          cross(terminal_arm(at%pose, ends(k)), force)), row)
-      else
-        call add_rotation(at%numbers, ends(k)%rotation, sense*couple, row)
-      end if
+      call add_rotation(at%numbers, ends(k)%rotation, sense*moment_of(at%pose, ends(k), force, &
+        couple), row)
     end do
   end subroutine add_between
 
@@ -154,10 +150,9 @@ contains
     real(wp) :: moment
     integer :: part, end
 
-    moment = couple
+    moment = moment_of(at%pose, terminal, force, couple)
     work = 0.0_wp
     if (terminal%point > 0) work = matmul(force, chords%pin(:, terminal%point, :))
-    if (terminal%is_rigid) moment = moment + cross(terminal_arm(at%pose, terminal), force)
     if (terminal%rotation > 0) then
       work = work + moment*chords%rotation(terminal%rotation, :)
     else if (terminal%rotation == 0 .and. terminal%part > 0 .and. abs(moment) > 0.0_wp) then
@@ -166,6 +161,17 @@ contains
         chords%across(3:, :, part), end)
     end if
   end function work_at
+
+  !> Moment about the point of a terminal, which turns it: of a force on a rigid link, too.
+  pure function moment_of(pose, terminal, force, couple) result(moment)
+    type(pose_t), intent(in) :: pose
+    type(elastic_terminal_t), intent(in) :: terminal
+    real(wp), intent(in) :: force(2), couple
+    real(wp) :: moment
+
+    moment = couple
+    if (terminal%is_rigid) moment = moment + cross(terminal_arm(pose, terminal), force)
+  end function moment_of
 
   !> The part that has a terminal at an end, at this position.
   pure subroutine find_end(elastic, terminal, part, end)
