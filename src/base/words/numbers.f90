@@ -11,7 +11,7 @@ module numbers
   implicit none (type, external)
   private
 
-  public :: number_length, read_real, read_integer, shortest_text, write_shortest
+  public :: number_length, read_real, read_integer, shortest_text
 
   !> Powers of ten of 0.d… beyond these are no doubles. Half the distance of two doubles has at most
   !! 767 digits; the last of more only says whether one of those that follow is not 0.
@@ -236,14 +236,6 @@ contains
     real(wp), intent(in) :: value !! finite
     character(len=:), allocatable :: string
 
-    call write_shortest(value, string)
-  end function shortest_text
-
-  !> As `shortest_text`, for what threads do at the same time.
-  pure subroutine write_shortest(value, string)
-    real(wp), intent(in) :: value !! finite
-    character(len=:), allocatable, intent(out) :: string
-
     type(error_t), allocatable :: error
     real(wp) :: again
     integer :: digits
@@ -253,7 +245,7 @@ contains
       call read_real(string, again, error)
       if (abs(again - value) <= 0.0_wp) return
     end do
-  end subroutine write_shortest
+  end function shortest_text
 
   !> Reads a text that is a whole number and nothing else. Errors: it is none, or too large.
   pure subroutine read_integer(string, value, error)
